@@ -38,7 +38,7 @@ async function start() {
   } catch (error) {
     client = undefined;
     window.showErrorMessage(
-      `twinform: "${command}" cannot be started (${error.message}). Run: pip install "twinform[lsp,xacro]", ` +
+      `twinform: "${command}" cannot be started (${error.message}). Run: pip install "twinform[lsp]", ` +
         "or name the command in the setting twinform.command.",
     );
   }

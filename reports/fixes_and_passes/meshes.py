@@ -135,5 +135,5 @@ def _explained(found: Iterable[Outcome]) -> str:
     return subsection("What a judge sees otherwise", listing(("pass", "mesh", "what", "why"), rows))
 
 
-_coal = need(lambda: oracles.available("pinocchio"), "Coal is not here: pip install '.[oracles]'")
+_coal = need(lambda: oracles.available("pinocchio"), "Coal is not here: pip install '.[engines]'")
 SECTION = Section("meshes", _ABOUT, measure, (_coal,), KNOWN)

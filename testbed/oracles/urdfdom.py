@@ -8,7 +8,7 @@ from importlib.metadata import PackageNotFoundError, distribution
 from pathlib import Path
 
 MISSING = "urdfdom is not here: it needs check_urdf of liburdfdom-tools"
-MISSING_6 = "urdfdom 6 is not here: pip install '.[oracles]'"
+MISSING_6 = "urdfdom 6 is not here: pip install '.[engines]'"
 
 
 def available() -> bool:

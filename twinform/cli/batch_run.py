@@ -141,7 +141,9 @@ def _make_runner(options: RunOptions) -> Runner:
     try:
         return dask_runner(options["scheduler"], tell=partial(print_line, err=True))
     except ImportError as error:
-        raise click.UsageError(f"--scheduler needs Dask: pip install 'twinform[dask]' ({error})") from error
+        from twinform.installation import install_command  # noqa: PLC0415 - see above
+
+        raise click.UsageError(f"--scheduler needs Dask ({error}); run: {install_command('dask')}") from error
 
 
 class _Progress:

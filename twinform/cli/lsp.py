@@ -20,9 +20,9 @@ def command(*, stdio: bool) -> None:
     try:
         from twinform.server.serving import serve  # noqa: PLC0415 - an extra has its library
     except ImportError as error:
-        raise Unusable(
-            f"the language server needs {error.name or 'pygls'}; run: pip install 'twinform[lsp]'"
-        ) from error
+        from twinform.installation import install_command  # noqa: PLC0415 - see above
+
+        raise Unusable(f"the language server needs {error.name or 'pygls'}; run: {install_command('lsp')}") from error
     from twinform.cli.editor_settings import settings_of  # noqa: PLC0415 - see above
 
     click.get_current_context().exit(serve(settings_of))

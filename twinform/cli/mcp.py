@@ -47,7 +47,9 @@ def command(root: Path) -> None:
     try:
         make_server(ModelTools(Path.cwd()), worker).run()
     except ImportError as error:
-        raise Unusable(f"the server needs {error.name or 'mcp'}; run: pip install 'twinform[mcp]'") from error
+        from twinform.installation import install_command  # noqa: PLC0415 - most have what they need
+
+        raise Unusable(f"the server needs {error.name or 'mcp'}; run: {install_command('mcp')}") from error
     finally:
         worker.stop()
 

@@ -113,7 +113,9 @@ def _require_watchfiles() -> None:
     try:
         import watchfiles  # noqa: F401, PLC0415 # pyright: ignore[reportUnusedImport] - an extra
     except ImportError as error:
-        raise Unusable("--watch needs watchfiles: run pip install 'twinform[watch]'") from error
+        from twinform.installation import install_command  # noqa: PLC0415 - most have what they need
+
+        raise Unusable(f"--watch needs watchfiles; run: {install_command('watch')}") from error
 
 
 def _wait(names: Sequence[str], watched: _Watched) -> None:

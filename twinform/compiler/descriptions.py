@@ -40,7 +40,9 @@ def load_description(name: str, **options: Unpack[FileOptions]) -> Document:
     try:
         known = import_module("robot_descriptions").DESCRIPTIONS
     except ImportError as error:
-        message = "robot_descriptions is not installed; run: pip install 'twinform[descriptions]'"
+        from twinform.installation import install_command  # noqa: PLC0415 - most have what they need
+
+        message = f"robot_descriptions is not installed; run: {install_command('descriptions')}"
         raise ModuleNotFoundError(message, name="robot_descriptions") from error
     if name not in known:
         raise ValueError(f"robot_descriptions has no {name!r}; {did_you_mean(name, known) or 'it lists its own'}")

@@ -36,7 +36,7 @@ from twinform.ir.groups import Groups
 from twinform.ir.scopes import scoped_models
 from twinform.passes import NO_ASSETS, Assets, Pipeline
 from twinform.passes.mesh_jobs.job import MeshJob
-from twinform.passes.mesh_jobs.mesh_files import EXTRA, READ, RefusedMeshError, content_of, kind_of
+from twinform.passes.mesh_jobs.mesh_files import READ, RefusedMeshError, content_of, install_readers, kind_of
 from twinform.passes.meshes.limit_sensors import sensor_cost, sensors_in
 
 
@@ -119,7 +119,7 @@ def _count_triangles(path: Path, size: int) -> _MeshFile:
     except RefusedMeshError as error:
         return _MeshFile(size, problem=str(error))
     if result.trouble == "missing":
-        return _MeshFile(size, problem=f"{result.message} is not installed: {EXTRA}")
+        return _MeshFile(size, problem=f"{result.message} is not installed; run: {install_readers()}")
     if result.trouble:
         return _MeshFile(size, problem=result.message)
     triangles = cast("int", result.facts["triangles"])

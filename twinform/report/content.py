@@ -23,7 +23,7 @@ from twinform.diagnostics.reporters import FileFindings
 from twinform.ir import Document, Format
 from twinform.passes import PassError
 from twinform.report.markup import count
-from twinform.view import NotDrawn, StandaloneView, ViewError, standalone_view
+from twinform.view import NotDrawn, StandaloneView, ViewerMissingError, ViewError, standalone_view
 
 View = Callable[[Document, Document | None, Comparison | None, SearchPath], StandaloneView]
 """Makes the page of the 3D view."""
@@ -194,5 +194,8 @@ def _make_view(
     other = two.document if two and two.loaded.accepted else None
     try:
         return view(one.document, other, comparison, search), ""
+    except ViewerMissingError as error:
+        # the page is for others: it names no folder of this machine
+        return _NO_VIEW, f"the 3D view needs {error.library}: pip install 'twinform[view]'"
     except (ViewError, PassError) as error:
         return _NO_VIEW, str(error)

@@ -134,7 +134,10 @@ class ViewerMissingError(ViewError):
     """A library that draws the view is not installed."""
 
     def __init__(self, library: str) -> None:
-        super().__init__(f"the 3D view needs {library}: run pip install 'twinform[view]'")
+        from twinform.installation import install_command  # noqa: PLC0415 - most have what they need
+
+        self.library = library
+        super().__init__(f"the 3D view needs {library}; run: {install_command('view')}")
 
 
 class PortTakenError(ViewError):

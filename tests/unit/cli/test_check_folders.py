@@ -10,6 +10,8 @@ from threading import Thread
 
 import pytest
 
+from twinform.installation import install_command
+
 from .conftest import GOOD, WARNED, WRONG, Run
 
 
@@ -234,7 +236,7 @@ def test_watching_is_for_files_and_text(run: Run, here: Path) -> None:
 def test_watching_without_watchfiles_says_how_to_get_it(run: Run, here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "watchfiles", None)
     done = run("check", "good.urdf", "--watch")
-    assert (done.exit_code, "run pip install 'twinform[watch]'" in done.stderr) == (2, True)
+    assert (done.exit_code, f"run: {install_command('watch')}" in done.stderr) == (2, True)
 
 
 def test_thousands_of_lines_of_a_difference_are_cut(run: Run, here: Path) -> None:

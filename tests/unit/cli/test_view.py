@@ -6,6 +6,8 @@ from pathlib import Path
 
 import pytest
 
+from twinform.installation import install_command
+
 from .conftest import Run
 
 
@@ -46,4 +48,4 @@ def test_without_what_it_is_drawn_with_it_says_what_to_install(run: Run, folder:
     monkeypatch.setitem(sys.modules, "viser", None)
     done = run("view", folder / "good.urdf", "--no-open")
     assert done.exit_code == 2
-    assert "pip install 'twinform[view]'" in done.stderr
+    assert f"run: {install_command('view')}" in done.stderr

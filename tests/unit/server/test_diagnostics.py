@@ -12,6 +12,7 @@ import pytest
 from lsprotocol import types
 
 from testbed.editor.client import Editor, editor
+from twinform.installation import install_command
 
 pytestmark = pytest.mark.slow
 
@@ -259,4 +260,4 @@ def test_without_the_extra_the_command_says_what_to_install(tmp_path: Path) -> N
         check=False,
     )
     assert done.returncode == 2
-    assert "pip install 'twinform[lsp]'" in done.stderr
+    assert f"run: {install_command('lsp')}" in done.stderr

@@ -195,7 +195,7 @@ def test_an_engine_that_is_not_installed_is_an_error_with_the_remedy(monkeypatch
     monkeypatch.setattr("twinform.testing.oracles.engines.find_spec", lambda _: None)  # pyright: ignore[reportUnknownLambdaType, reportUnknownArgumentType] - only its result matters
     assert not oracles.available("drake")
     assert not oracles.available()
-    with pytest.raises(oracles.EngineMissingError, match=r"pip install 'twinform\[oracles\]'"):
+    with pytest.raises(oracles.EngineMissingError, match=r"pip install 'twinform\[engines\]'"):
         oracles.compare(path, path)
 
 

@@ -111,7 +111,9 @@ def expand(path: Path, load_options: LoadOptions, sink: DiagnosticSink) -> Expan
 
 def _report_failure(outcome: Mapping[str, Any], path: Path, load_options: LoadOptions, sink: DiagnosticSink) -> None:
     if "missing" in outcome:
-        advice = "run: pip install 'twinform[xacro]'"
+        from twinform.installation import install_command  # noqa: PLC0415 - most have what they need
+
+        advice = f"run: {install_command()}"
         message = f"this is a xacro file, and xacro is not installed ({outcome['missing']})"
         sink.report(rules.XACRO_MISSING, message, Location(line=1), help=advice)
         return

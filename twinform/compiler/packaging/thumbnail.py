@@ -154,7 +154,9 @@ def thumbnail(document: Document, collection: Collection, sink: DiagnosticSink) 
             return picture(faces)
         why = "nothing of it can be drawn"
     except ImportError as error:
-        why = f"{error.name} is not installed: pip install 'twinform[thumbnails]'"
+        from twinform.installation import install_command  # noqa: PLC0415 - most have what they need
+
+        why = f"{error.name} is not installed; run: {install_command('thumbnails')}"
     except (FrameError, UndrawableError) as error:
         why = str(error)
     sink.report(NO_THUMBNAIL, f"model {model.name!r} has no thumbnail: {why}", model.location, found=model.name)

@@ -179,8 +179,10 @@ class _Layers:
     def _ask(self, job: MeshJob, place: _Place) -> MeshResult:
         found = _process().do(job)
         if found.trouble == "missing":
+            from twinform.installation import install_command  # noqa: PLC0415 - most have what they need
+
             message = "USD is read with usd-core, which is not installed"
-            self._refuse(rules.USD_READER_MISSING, message, place, "pip install 'twinform[usd]'")
+            self._refuse(rules.USD_READER_MISSING, message, place, f"run: {install_command('usd')}")
         if found.trouble:
             self._refuse(rules.UNREADABLE_FILE, f"cannot read it as USD: {found.message}", place)
         return found

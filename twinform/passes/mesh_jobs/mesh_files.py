@@ -7,7 +7,6 @@ from twinform.file_access import read_regular
 
 READ = frozenset({"stl", "obj", "dae", "ply", "off", "glb"})
 """Formats whose triangles are all in one file; other files that they name hold only the appearance."""
-EXTRA = "pip install 'twinform[meshes]'"
 LARGEST = 2**28
 """In bytes. A binary STL of this size has five million triangles."""
 POINTER = "a pointer of Git LFS and not the file itself"
@@ -15,6 +14,13 @@ _POINTER_START = b"version https://git-lfs.github.com/spec/"
 MARK = "made by twinform"
 """Stands in the first bytes of every mesh that is written; only a file that has it is ever written over."""
 MeshFormat = Literal["obj", "stl", "glb"]
+
+
+def install_readers() -> str:
+    """The command that installs the libraries that read meshes."""
+    from twinform.installation import install_command  # noqa: PLC0415 - most have what they need
+
+    return install_command("meshes")
 
 
 class RefusedMeshError(ValueError):

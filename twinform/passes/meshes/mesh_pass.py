@@ -27,7 +27,7 @@ from twinform.passes.framework.pass_base import AssetPass, FilesPass
 from twinform.passes.framework.side_files import CompanionPath
 from twinform.passes.mesh_jobs.child_process import do
 from twinform.passes.mesh_jobs.job import BadMessageError, MeshJob, MeshResult, Options
-from twinform.passes.mesh_jobs.mesh_files import EXTRA, MARK
+from twinform.passes.mesh_jobs.mesh_files import MARK, install_readers
 from twinform.passes.meshes.mesh_source import MeshSource, MeshSources
 from twinform.passes.shared.mesh_solids import MeshError, submesh_of
 from twinform.storage.user_cache import prune, user_cache
@@ -138,7 +138,7 @@ class Workbench:
             self.cache.put(job, result)
         if result.trouble == "missing":
             message = f"the mesh {uri!r} is not looked into: {result.message} is not installed"
-            raise MeshError(rules.MESH_READER_MISSING, message, EXTRA)
+            raise MeshError(rules.MESH_READER_MISSING, message, f"run: {install_readers()}")
         if result.trouble:
             raise MeshError(rules.UNREADABLE_MESH, f"the mesh {uri!r} cannot be used: {result.message}")
         return MeshOutcome(result, source, stem)

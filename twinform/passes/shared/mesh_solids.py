@@ -11,7 +11,7 @@ from twinform.ir import Element, Mesh, Vector3
 from twinform.ir.solids import Solid, times_each
 from twinform.ir.transform import times_power
 from twinform.passes.framework.assets import AssetError, Assets
-from twinform.passes.mesh_jobs.mesh_files import EXTRA, READ, RefusedMeshError, content_of, kind_of
+from twinform.passes.mesh_jobs.mesh_files import READ, RefusedMeshError, content_of, install_readers, kind_of
 
 if TYPE_CHECKING:
     from twinform.passes.mesh_jobs.job import MeshResult, Options
@@ -125,7 +125,7 @@ def _run_job(name: str, path: Path, uri: str, options: "Options") -> "MeshResult
         raise MeshError(rules.UNREADABLE_MESH, f"the mesh {uri!r} cannot be read: {error}") from error
     if result.trouble == "missing":
         message = f"the mesh {uri!r} is not looked into: {result.message} is not installed"
-        raise MeshError(rules.MESH_READER_MISSING, message, EXTRA)
+        raise MeshError(rules.MESH_READER_MISSING, message, f"run: {install_readers()}")
     if result.trouble:
         raise MeshError(rules.UNREADABLE_MESH, f"the mesh {uri!r} cannot be read: {result.message}")
     return result

@@ -6,7 +6,7 @@
         verdict = oracles.compare("robot.urdf", "robot.sdf", engine="drake")
         assert verdict, verdict
 
-Engines come with `pip install 'twinform[oracles]'`, and are imported when they are asked.
+Engines come with `pip install 'twinform[engines]'`, and are imported when they are asked.
 """
 
 from twinform.testing.oracles.engines import (

@@ -69,7 +69,7 @@ class EngineUnreadableError(OracleError):
         return EngineUnreadableError, (self.engine, self.path, self.cause)
 
 
-_EXTRA = "pip install 'twinform[oracles]'"
+_EXTRA = "pip install 'twinform[engines]'"
 _HERE = "twinform.testing.oracles"
 # Coarse where the engine itself rounds: libsdformat's reader of URDF prints some numbers with six
 # digits, and PyBullet turns inertias with few digits.

@@ -13,6 +13,7 @@ from twinform.compiler.packaging.collecting import Collection
 from twinform.compiler.packaging.package import PackageLayout
 from twinform.compiler.packaging.thumbnail import thumbnail
 from twinform.diagnostics import DiagnosticSink
+from twinform.installation import install_command
 
 pytestmark = pytest.mark.slow
 
@@ -107,4 +108,4 @@ def test_libraries_that_are_missing_are_named(monkeypatch: pytest.MonkeyPatch) -
     monkeypatch.setitem(sys.modules, "PIL.Image", None)
     data, sink = _drawn(_visual("v", "0 0 0", "1 0 0"))
     assert data is None
-    assert "pip install 'twinform[thumbnails]'" in sink.diagnostics[0].message
+    assert f"run: {install_command('thumbnails')}" in sink.diagnostics[0].message

@@ -9,6 +9,7 @@ from click.testing import CliRunner
 import twinform
 from twinform.cli import main
 from twinform.diagnostics import Diagnostic
+from twinform.installation import install_command
 from twinform.passes.mesh_jobs.job import MeshJob, MeshResult
 
 Sdf = pytest.importorskip("pxr.Sdf", reason="usd-core is not installed")
@@ -248,7 +249,7 @@ def test_a_library_that_is_not_installed_is_named(tmp_path: Path, monkeypatch: p
 
     monkeypatch.setattr("twinform.passes.mesh_jobs.child_process.usd", Missing)
     (found,) = refused(_project(tmp_path))
-    assert (found.rule.name, found.help) == ("usd-reader-missing", "pip install 'twinform[usd]'")
+    assert (found.rule.name, found.help) == ("usd-reader-missing", f"run: {install_command('usd')}")
 
 
 @pytest.mark.parametrize("words", [["convert", "--to", "urdf"], ["check"], ["graph"], ["stats"]])

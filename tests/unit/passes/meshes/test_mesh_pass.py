@@ -7,6 +7,7 @@ from typing import Any
 import pytest
 
 import twinform
+from twinform.installation import install_command
 from twinform.ir import Collision, Document, Inertial, Link, Visual, rewrite
 from twinform.passes import PipelineError, parse_pipeline
 from twinform.passes.mesh_jobs.mesh_files import MARK
@@ -93,7 +94,7 @@ def test_without_the_libraries_a_diagnostic_says_what_to_install(robot: Path, mo
     monkeypatch.setenv("TWINFORM_MESH_CACHE", "off")
     made = twinform.convert(robot, to="urdf", passes="simplify-collisions")
     assert [(each.rule.name, each.help) for each in made.diagnostics] == [
-        ("mesh-reader-missing", "pip install 'twinform[meshes]'")
+        ("mesh-reader-missing", f"run: {install_command('meshes')}")
     ]
 
 

@@ -10,6 +10,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from twinform.file_access import Readable
+from twinform.installation import install_command
 from twinform.ir import Element, Mesh, Opaque
 from twinform.ir.geometry import Box
 from twinform.ir.solids import Solid, solid
@@ -165,7 +166,7 @@ def test_without_the_library_it_reports_what_to_install(folder: Path, monkeypatc
     with pytest.raises(MeshError, match="trimesh is not installed") as caught:
         meshes(folder).solid(Mesh(uri="box.stl"), 1)
     assert caught.value.rule.name == "mesh-reader-missing"
-    assert caught.value.help == "pip install 'twinform[meshes]'"
+    assert caught.value.help == f"run: {install_command('meshes')}"
 
 
 @pytest.mark.parametrize("away", [0.0, 1e3, 1e6, 1e8])
