@@ -25,7 +25,7 @@ DEMO := out/demo
 # tests start the command a thousand times: it must not be compiled each time
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: help sync fmt generate lint site pictures wheel test verify demo report imports bench latency vsix size before prove coverage fuzz clean
+.PHONY: help sync fmt generate lint site pictures wheel floors pythons packaging test verify demo report imports bench latency vsix size before prove coverage fuzz clean
 
 help: ## this list
 	@grep -hE '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## (.*)/\1\t\2/' | expand -t 12
@@ -36,7 +36,7 @@ $(SYNCED): pyproject.toml
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "Python 3.11 or newer is needed")'
 	test -x $(BIN)/python || $(PYTHON) -m venv .venv
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --upgrade 'pip>=25.1'
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable . --group dev
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[all]' --group dev
 	touch $@
 
 # what users install, without the tools of developers
@@ -45,7 +45,7 @@ $(BIN)/twinform:
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable .
 
 $(ORACLES): $(SYNCED)
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[oracles]'
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[engines]'
 	touch $@
 
 fmt: $(SYNCED) ## format, and fix what the linter can fix
@@ -104,13 +104,41 @@ site: $(SYNCED) ## build the documentation site into out/site; every warning is 
 pictures: $(SYNCED) ## take the pictures of the README and the site in a real browser
 	$(BIN)/python -m generators.pictures
 
-wheel: $(SYNCED) # build the wheel, list it, install it into an empty environment and run the command
+wheel: $(SYNCED) # build the sdist and from it the wheel, which has to be the wheel of this tree; install it into an empty environment
 	rm -rf dist .wheel-venv
-	$(BIN)/python -m build --wheel --outdir dist . >/dev/null
+	$(BIN)/python -m build --no-isolation --outdir dist . >/dev/null
+	$(BIN)/python -m build --no-isolation --wheel --outdir dist/again . >/dev/null
+	cmp dist/*.whl dist/again/*.whl && rm -r dist/again
+	$(BIN)/python -m twine check --strict dist/*
 	$(BIN)/python -m zipfile --list dist/*.whl
 	$(PYTHON) -m venv .wheel-venv
 	.wheel-venv/bin/python -m pip install --quiet --disable-pip-version-check dist/*.whl
 	.wheel-venv/bin/twinform check examples/rover.urdf
+
+# mcp needs newer packages than we do
+floors: OLD := dask,descriptions,lsp,meshes,progress,testing,thumbnails,usd,view,watch
+floors: ## the unit tests with the lowest versions of all that the project file asks for
+	mkdir -p out
+	grep -oE '"[A-Za-z0-9-]+>=[0-9.]+"' pyproject.toml | sed -E 's/"(.*)>=(.*)"/\1==\2/' | sort -u >out/floors.txt
+	test -x out/floors/bin/python || $(PYTHON) -m venv out/floors
+	out/floors/bin/python -m pip install --quiet --disable-pip-version-check --upgrade 'pip>=25.1'
+	out/floors/bin/python -m pip install --quiet --editable '.[$(OLD)]' --group tests --constraint out/floors.txt
+	out/floors/bin/python -m pytest -q -n $(JOBS) --dist worksteal -p no:cacheprovider $(ARGS) tests/unit
+
+pythons: ## the unit tests on the Pythons of other releases of Debian, as root with debootstrap
+	JOBS=$(JOBS) ARGS='$(ARGS)' .ci/pythons $(or $(NAME),trixie sid)
+
+packaging: # lint what others run: workflows, action, forms of issues, Dockerfile, citation, the recipe for conda
+	test -x out/packaging/bin/python || $(PYTHON) -m venv out/packaging
+	out/packaging/bin/python -m pip install --quiet --disable-pip-version-check --upgrade 'pip>=25.1'
+	out/packaging/bin/python -m pip install --quiet --group packaging
+	out/packaging/bin/actionlint .github/workflows/*.yml
+	out/packaging/bin/zizmor --offline --quiet .github action.yml
+	out/packaging/bin/check-jsonschema --builtin-schema vendor.github-actions action.yml
+	out/packaging/bin/check-jsonschema --builtin-schema vendor.github-issue-forms .github/ISSUE_TEMPLATE/[!c]*.yml
+	out/packaging/bin/check-jsonschema --builtin-schema vendor.citation-file-format CITATION.cff
+	out/packaging/bin/hadolint Dockerfile
+	out/packaging/bin/python -c "from rattler_build import Stage0Recipe as R; print(R.from_file('packaging/conda/recipe.yaml').render())"
 
 prove: $(ORACLES) ## all tests at depth: 1,000 examples of each property, 100,000 documents before four judges
 	TWINFORM_PROFILE=deep $(BIN)/python -m pytest -n $(JOBS) --dist worksteal

@@ -1,10 +1,14 @@
 """What all tests share."""
 
 import gc
+import inspect
 from collections.abc import Generator
+from functools import partialmethod
 from pathlib import Path
+from typing import Any
 
 import pytest
+from click.testing import CliRunner
 
 from testbed.corpus.files import CORPUS, MISSING
 from tests.profile import DEEP
@@ -14,6 +18,10 @@ pytest.register_assert_rewrite("tests.expected")  # so that it shows what differ
 # The collector walks the modules of 7,600 tests seldom. gc.freeze would do more, but Hypothesis 6.170 asks
 # for the number of frozen objects at every example, which doubled the time of properties.
 _SELDOM = (20_000, 20, 100)
+
+if "mix_stderr" in inspect.signature(CliRunner).parameters:  # before click 8.2
+    runner: Any = CliRunner
+    runner.__init__ = partialmethod(CliRunner.__init__, mix_stderr=False)
 
 _TESTS = Path(__file__).parent
 _SLOW_ROOMS = frozenset(

@@ -28,7 +28,9 @@ def _runner(tmp_path: Path, script: str, **variables: str) -> subprocess.Complet
     repository.mkdir()
     (programs / "twinform").write_text(_PRINTS_ITS_WORDS)
     (programs / "twinform").chmod(0o755)
-    (programs / "python").symlink_to(sys.executable)
+    # no link: the environment of a link's target is another one, where pip may be missing
+    (programs / "python").write_text(f'#!/bin/sh\nexec "{sys.executable}" "$@"\n')
+    (programs / "python").chmod(0o755)
     for module in ("pip", "secrets"):
         (repository / f"{module}.py").write_text("open('RAN', 'w')")
     given = {name: str(tmp_path / name) for name in ("WORDS", "GITHUB_OUTPUT")}

@@ -111,7 +111,7 @@ class FormatTask:
 _WIDEST = 16
 
 
-class _Indent(click.ParamType[str]):
+class _Indent(click.ParamType):  # pyright: ignore[reportMissingTypeArgument] - click before 8.2 has no such argument
     """The indentation of a level: a number of blanks, or `tab`."""
 
     name = "indent"

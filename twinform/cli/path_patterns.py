@@ -6,15 +6,25 @@ import warnings
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import field
 from pathlib import Path
-from typing import AnyStr, Self
+from typing import TYPE_CHECKING, Any, AnyStr, Self
 
 from pathspec import GitIgnoreSpec
-from pathspec.patterns.gitignore.spec import GitIgnoreSpecPattern
 
 from twinform.cli.model_files import Exclusion, FileKind, PatternError, is_model
 from twinform.dataclass import dataclass
 from twinform.file_access import REPOSITORY, has_any, read_regular
 
+if TYPE_CHECKING:
+    from pathspec.patterns.gitignore.spec import GitIgnoreSpecPattern
+else:
+    try:
+        from pathspec.patterns.gitignore.spec import GitIgnoreSpecPattern
+    except ImportError:  # before pathspec 1.0
+        from pathspec.patterns.gitwildmatch import GitWildMatchPattern as GitIgnoreSpecPattern
+
+# re2, the optional engine since pathspec 1.0, is linear too, but it is a compiled dependency for a few patterns
+ENGINE: dict[str, Any] = {"backend": "simple"} if "gitignore" in GitIgnoreSpecPattern.__module__ else {}
+"""The options of pathspec that choose its engine in Python, where there are others."""
 LONGEST = 4096
 """The longest pattern in characters, which is as long as a path may be."""
 MOST = 2000
@@ -28,7 +38,6 @@ _STAR = "[^/]*"
 _ONE = "[^/]"
 
 
-# pathspec's optional engine re2 is linear too, but it is a compiled dependency for a few patterns.
 # Tests compare these expressions with pathspec, and pathspec with `git ls-files`.
 class _LinearPattern(GitIgnoreSpecPattern):
     """A pattern that matches in linear time.
@@ -91,7 +100,7 @@ class PathPatterns:
             with warnings.catch_warnings():
                 # re warns of brackets such as `[[a]`, which may mean something else in later versions
                 warnings.simplefilter("ignore", FutureWarning)
-                spec = GitIgnoreSpec.from_lines(written, _LinearPattern, backend="simple")
+                spec = GitIgnoreSpec.from_lines(written, _LinearPattern, **ENGINE)
         except (ValueError, re.error) as error:
             raise PatternError(str(error)) from error
         return cls(os.path.abspath(folder), spec)  # noqa: PTH100 - links stay links

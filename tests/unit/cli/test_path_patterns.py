@@ -13,7 +13,7 @@ from pathspec import GitIgnoreSpec
 from tests.patterns.growth import grows_too_fast
 from twinform.cli.inputs import discover
 from twinform.cli.model_files import Exclusion, PatternError
-from twinform.cli.path_patterns import LONGEST, PathPatterns
+from twinform.cli.path_patterns import ENGINE, LONGEST, PathPatterns
 
 _PIECES = st.sampled_from(["a", "b", "ab", "*", "**", "?", "/", "/**/", "[ab]", "[!a]", "*a", "b*", "!", ".", "\\*"])
 _NAMES = st.text("ab.*", min_size=1, max_size=4).filter(lambda name: name.strip("."))
@@ -26,7 +26,7 @@ _NAMES = st.text("ab.*", min_size=1, max_size=4).filter(lambda name: name.strip(
 )
 def test_patterns_mean_what_they_mean_in_pathspec(lines: list[str], path: str, is_folder: bool) -> None:
     try:
-        judge = GitIgnoreSpec.from_lines(lines, backend="simple")
+        judge = GitIgnoreSpec.from_lines(lines, **ENGINE)
     except (ValueError, re.error):
         with pytest.raises(PatternError):
             PathPatterns.of("/top", lines)

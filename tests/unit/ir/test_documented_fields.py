@@ -27,7 +27,7 @@ KINDS = {kind.__name__: kind for kind in kinds()}
 def test_every_field_is_described(name: str):
     kind = KINDS[name]
     described = _described(kind)
-    assert list(described) == [name for name in fields_of(kind) if name in vars(kind).get("__annotations__", {})]
+    assert list(described) == [name for name in fields_of(kind) if name in inspect.get_annotations(kind)]
     assert all(description.endswith(".") for description in described.values())
 
 
