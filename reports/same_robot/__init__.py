@@ -5,6 +5,7 @@ SECTIONS = {
     "oracle": "The same robot, in the eyes of others",
     "equipment": "What Gazebo finds in our URDF and SDF",
     "gazebo_runs": "Conversions in Gazebo's own physics",
+    "contacts": "Contacts",
     "versions": "Versions of SDF",
 }
 """The sections of the page by the names of their modules, each with its title, in the order of the page."""

@@ -15,8 +15,8 @@ from twinform.testing.oracles.libsdformat import Program
 
 MISSING = "gz-physics 5 is not here: it needs libignition-physics-dev with its engines, pkg-config and g++"
 
-_PACKAGES = ("ignition-physics5-dartsim", "ignition-physics5-sdf", "ignition-plugin1-loader")
-_PROGRAM = Program(Path(__file__).with_name("gazebo_run.cpp"), _PACKAGES)
+PACKAGES = ("ignition-physics5-dartsim", "ignition-physics5-sdf", "ignition-plugin1-loader")
+_PROGRAM = Program(Path(__file__).with_name("gazebo_run.cpp"), PACKAGES)
 
 
 class PhysicsEngine(StrEnum):
@@ -32,7 +32,7 @@ _PLUGINS = {PhysicsEngine.DART: "dartsim", PhysicsEngine.BULLET: "bullet", Physi
 
 def available(engine: PhysicsEngine = PhysicsEngine.DART) -> bool:
     """Whether the engine, and the tools to build a program around it, are installed."""
-    return _PROGRAM.can_be_built() and (_folder() / f"libignition-physics5-{_PLUGINS[engine]}-plugin.so").exists()
+    return _PROGRAM.can_be_built() and (plugin_folder() / f"libignition-physics5-{_PLUGINS[engine]}-plugin.so").exists()
 
 
 def simulate(
@@ -42,7 +42,7 @@ def simulate(
     files = list(dict.fromkeys(Path(path).resolve() for path in paths))
     names = "".join(f"{file}\n" for file in files).encode()
     wanted = settings or Settings()
-    command = [str(_PROGRAM.built()), str(_folder()), engine.value, *wanted.arguments()]
+    command = [str(_PROGRAM.built()), str(plugin_folder()), engine.value, *wanted.arguments()]
     environment = os.environ | {"SDF_PATH": os.pathsep.join(str(folder) for folder in wanted.folders)}
     done = subprocess.run(command, input=names, stdout=subprocess.PIPE, check=True, env=environment)
     rows = done.stdout.decode(errors="replace").splitlines()
@@ -50,7 +50,7 @@ def simulate(
 
 
 @cache
-def _folder() -> Path:
+def plugin_folder() -> Path:
     """The folder of the plugins."""
     command = ["pkg-config", "--variable=libdir", "ignition-physics5"]
     library = subprocess.run(command, capture_output=True, text=True, check=True).stdout.strip()

@@ -23,13 +23,14 @@ _INCLUDE = lazy_pattern(r'^\s*#\s*include\s+"([^"]+)"', re.MULTILINE)
 
 @dataclass(frozen=True, slots=True)
 class Program:
-    """A program: its source, and the packages of pkg-config that it is built against.
+    """A program: its source, and the packages of pkg-config and other libraries that it is built against.
 
     It is built again when the source changes, or a header that the source includes by a relative path.
     """
 
     source: Path
     packages: tuple[str, ...]
+    libraries: tuple[str, ...] = ()
 
     def can_be_built(self) -> bool:
         """Whether the libraries and the tools to build against them are installed."""
@@ -78,6 +79,7 @@ def _build(program: Program, path: Path) -> None:
     ).stdout.split()
     # two test processes may build at the same time: each builds its own, and the last one wins
     own = path.with_name(f"{path.name}.{os.getpid()}")
+    flags += [f"-l{name}" for name in program.libraries]
     subprocess.run(["g++", "-O1", "-std=c++17", str(program.source), "-o", str(own), *flags], check=True)
     own.replace(path)
 
