@@ -13,6 +13,7 @@ from testbed.agent import Agent, agent
 from twinform.cli import main
 from twinform.cli.model_tools import TOOLS, ModelTools, answer
 from twinform.file_access import CEILING
+from twinform.server.checking import LARGEST
 
 _ARM = """\
 <robot name="arm">
@@ -185,6 +186,14 @@ def test_convert_writes_no_other_file(output: str, why: str, root: Path) -> None
 )
 def test_what_a_tool_cannot_do_is_said(tool: str, given: dict[str, object], why: str) -> None:
     assert why in _refusal(tool, **given)
+
+
+def test_files_have_the_limits_of_the_editor(root: Path) -> None:
+    (root / "large.urdf").write_text(f"{_ARM}<!--{'x' * LARGEST}-->")
+    for tool, given in (("check", {}), ("convert", {"to": "sdf"}), ("stats", {}), ("fix", {})):
+        (found,) = _ask(tool, path="large.urdf", **given)["files"][0]["diagnostics"]
+        assert found["rule"] in {"oversized-file", "unreadable-file"}
+        assert "text" not in found
 
 
 def test_settings_that_are_wrong_are_named(root: Path) -> None:
