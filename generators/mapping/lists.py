@@ -29,7 +29,8 @@ _SPECIAL = """\
 * `gazebo`, `plugin`, `mujoco`, `deformable`, `auto_inertia_params`: free content, kept to the letter with its order.
 * `tf:` (`urn:twinform:1`): our own namespace. Carriers are read and folded back; `<tf:source>` of
   early versions of twinform is ignored.
-* Elements and attributes of other namespaces: kept where they stand, and carried. `drake:` is known by its prefix.
+* Elements and attributes of other namespaces: kept where they stand, and carried. `drake:` is known by its prefix; in
+  URDF `<drake:joint>` is a joint of SDF, and `<drake:ball_constraint>` one that closes a loop.
 * Comments and processing instructions: no part of the document; they do not come through.
 * The prolog, the encoding and the spelling of numbers: the text is written anew, in UTF-8; booleans keep theirs.
 * `xacro:`: expanded before anything is read, never carried.

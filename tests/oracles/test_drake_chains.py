@@ -2,6 +2,8 @@
 
 import importlib
 import math
+from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -46,6 +48,25 @@ def test_universal_screw_and_ball_joints_move_as_their_chains_do(pitch: str):
             assert np.abs(here[link][1] - there[link][1]).max() < 1e-9
 
 
+def test_joints_of_drake_move_as_the_joints_of_sdf_that_they_become():
+    urdf = (Path(__file__).parents[1] / "cases/convert/joints_of_drake.urdf").read_text()
+    one, other = _plant(urdf, "urdf"), _plant(twinform.convert(urdf.encode(), to="sdf", sdf_version="1.10").text, "sdf")
+    for ball, (u, v), turn, (x, y, yaw) in _samples(3, 2, 1, 3):
+        joints = {"pin": ball, "cross": [u, v], "bolt": turn}
+        here = _centers(one, {**joints, "table": [x, y, yaw]}, "bcde")
+        there = _centers(other, {**joints, "table_x": [x], "table_y": [y], "table": [yaw]}, "bcde")
+        for link in "bcde":
+            assert np.abs(here[link][0] - there[link][0]).max() < 1e-9
+            assert np.abs(here[link][1] - there[link][1]).max() < 1e-9
+
+
+def _samples(*sizes: int) -> Iterator[list[Any]]:
+    """Draw positions of joints with so many degrees of freedom."""
+    random = np.random.default_rng(4)
+    for _ in range(SAMPLES):
+        yield [random.uniform(-1.2, 1.2, size) for size in sizes]
+
+
 def test_a_chain_is_as_heavy_to_turn_as_its_universal_joint_but_for_the_links_between():
     sdf = SDF.format("")
     urdf = twinform.convert(sdf.encode(), to="urdf").text
@@ -86,11 +107,11 @@ def _plant(text: str, kind: str) -> Any:
     return plant
 
 
-def _centers(plant: Any, values: dict[str, list[float]]) -> dict[str, tuple[Any, Any]]:
+def _centers(plant: Any, values: dict[str, list[float]], links: str = "bcd") -> dict[str, tuple[Any, Any]]:
     """The center of mass of each link and its rotation since all joints stood at zero, both in the link `a`."""
     context, context_at_zero = _at(plant, values), plant.CreateDefaultContext()
     root = plant.GetBodyByName("a")
-    frames = [plant.GetBodyByName(name) for name in "bcd"]
+    frames = [plant.GetBodyByName(name) for name in links]
     return {body.name(): _center(plant, body, root, context, context_at_zero) for body in frames}
 
 

@@ -275,8 +275,8 @@ class Folded:
     @classmethod
     def of(cls, source: XmlElement, result: XmlElement) -> Self:
         """Find the differences that arise because `result` folds chains of joints in `source` back into one joint."""
-        found = [each for tag in _NAMED for each in result.iter(tag)]
-        there = frozenset((str(each.tag), each.get("name", ""), each.get("type", "")) for each in found)
+        found = [each for tag in _NAMED for each in result.iter(f"{{*}}{tag}")]  # <drake:joint> too
+        there = frozenset((etree.QName(each).localname, each.get("name", ""), each.get("type", "")) for each in found)
         named = frozenset((tag, name) for tag, name, _ in there)
         followers = frozenset(each.get("name", "") for each in found if next(each.iter("mimic"), None) is not None)
         chains = ((annotation.getparent(), annotation.get("type", "")) for annotation in source.iter(_CHAIN))

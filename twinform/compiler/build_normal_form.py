@@ -163,7 +163,7 @@ class Builder:
         else:
             self._add_text(made, element, fact)
         for child in element:
-            self.add_child(made, child, rows.get(str(child.tag)))
+            self.add_child(made, child, rows.get(_usual_tag(child)))
 
     def _rows_of(self, fact: Fact) -> Rows:
         found = self._rows.get(id(fact))
@@ -276,6 +276,12 @@ class Builder:
         for step in path[:-1]:
             made = made.children.setdefault(Key(step, "", 1), NormalPart(tag))
         add_once(made, path[-1], part)
+
+
+def _usual_tag(element: XmlElement) -> str:
+    """The tag of an element; that of a `<joint>` for a `<drake:joint>`, which has what that has."""
+    tag = str(element.tag)
+    return "joint" if tag.endswith("}joint") and "drake" in tag else tag
 
 
 def _normal_frame_name(text: str, name: str) -> str:

@@ -23,7 +23,19 @@ _IN_URDF = frozenset(
 )  # fmt: skip
 """What a URDF holds for the reverse conversion; none of it means anything in SDF."""
 _IN_SDF = frozenset(
-    {"urdf", "material", "shared-material", "unnamed", "floating", "link", "unsaid", "look", "extension", "shared"}
+    {
+        "urdf",
+        "material",
+        "shared-material",
+        "unnamed",
+        "floating",
+        "link",
+        "unsaid",
+        "look",
+        "extension",
+        "shared",
+        "drake",
+    }
 )
 """What an SDF file holds for the reverse conversion."""
 _OF_MEMORY = ("sdf", "urdf", SOURCE)

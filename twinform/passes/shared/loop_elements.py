@@ -18,8 +18,9 @@ from twinform.ir.joint import JointType
 from twinform.ir.node import Vector3
 from twinform.ir.transform import Transform, rounded
 from twinform.passes.carriers.annotations import EXTENSION, find_annotation, with_annotation, without_annotation
+from twinform.passes.shared.drake_joints import clark_name
 from twinform.passes.shared.poses import offset_attributes, read_offset, read_vector
-from twinform.schemas import format_value, usual_namespace
+from twinform.schemas import format_value
 
 _TYPES: Mapping[str, JointType] = {
     "ball": "ball",
@@ -94,7 +95,7 @@ def write_loop(joint: Joint, in_parent: Transform, in_child: Transform) -> Eleme
     parent = _write_end(form.parent, joint.parent or "", in_parent.compose(offset), axis)
     child = _write_end(form.child, joint.child or "", in_child, joint.axis2 and joint.axis2.xyz)
     own = tuple(pair for pair in own if pair[0] in form.attributes)
-    return Element.unchecked(name=_clark(word), attributes=own, children=(*parent, *child))
+    return Element.unchecked(name=clark_name(word), attributes=own, children=(*parent, *child))
 
 
 def _kind(word: str, element: Element, form: LoopForm) -> JointType:
@@ -181,17 +182,12 @@ def _write_end(end: EndForm, link: str, point: Transform, axis: Vector3 | None) 
     moved = {"xyz": any(point.translation), "rpy": not point.is_unturned}
     place = [(name, text) for name, text in offset_attributes(point).items() if text is not None and moved[name]]
     if end.place == end.link:
-        yield Element.unchecked(name=_clark(end.link), attributes=(named, *place))
+        yield Element.unchecked(name=clark_name(end.link), attributes=(named, *place))
     else:
-        yield Element.unchecked(name=_clark(end.link), attributes=(named,))
+        yield Element.unchecked(name=clark_name(end.link), attributes=(named,))
         if end.place.startswith("drake:"):
             place = [("value", dict(place).get("xyz", "0 0 0"))]
         if place:
-            yield Element.unchecked(name=_clark(end.place), attributes=tuple(place))
+            yield Element.unchecked(name=clark_name(end.place), attributes=tuple(place))
     if end.axis and axis and (written := rounded(axis)) != _DEFAULT:
         yield Element.unchecked(name=end.axis, attributes=(("xyz", format_value(written)),))
-
-
-def _clark(word: str) -> str:
-    prefix, _, local = word.rpartition(":")
-    return f"{{{usual_namespace(prefix)}}}{local}" if prefix else local

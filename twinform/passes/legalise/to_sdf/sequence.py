@@ -21,6 +21,7 @@ from twinform.passes.legalise.to_sdf.leave_inertias import LeaveInertias
 from twinform.passes.legalise.to_sdf.mesh_uris import MeshUris
 from twinform.passes.legalise.to_sdf.name_shapes import NameShapes
 from twinform.passes.legalise.to_sdf.note_lumping import NoteLumping
+from twinform.passes.legalise.to_sdf.read_drake_joints import ReadDrakeJoints
 from twinform.passes.legalise.to_sdf.restore_frames import RestoreFrames
 from twinform.passes.legalise.to_sdf.restore_joints import RestoreJoints
 from twinform.passes.legalise.to_sdf.restore_nested import NameScopes, RestoreNested
@@ -64,6 +65,7 @@ def to_sdf(
     return (
         DropMisplaced.unchecked(),
         FoldCapsules.unchecked(),
+        ReadDrakeJoints.unchecked(carriers=carriers),
         CarryUrdf.unchecked(carriers=carriers),  # before anything of SDF comes in
         FoldShapeMeshes.unchecked(),
         CloseLoops.unchecked(carriers=carriers),

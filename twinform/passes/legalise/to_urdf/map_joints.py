@@ -7,10 +7,11 @@ from typing import ClassVar, TypeVar
 from twinform.diagnostics import Fate, rules
 from twinform.ir import Axis, Joint, Limit, Mimic, Model, Node
 from twinform.ir.defaults import UNLIMITED, multiplier
-from twinform.passes.carriers.annotations import CONTINUOUS, MIMIC
+from twinform.passes.carriers.annotations import CONTINUOUS, MIMIC, find_annotation
 from twinform.passes.legalise.to_urdf.remainder import urdf_row
 from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
 from twinform.passes.legalise.urdf_pieces import BALLS
+from twinform.passes.shared.drake_joints import DRAKE, DRAKE_TYPES
 from twinform.passes.shared.nodes import text_piece
 from twinform.request_options import UrdfVersion
 from twinform.schemas import format_value
@@ -45,7 +46,9 @@ class MapJoints(ToUrdfPass):
 
 def _map_joint(joint: Joint, strength: float | None, keeper: UrdfKeeper) -> Joint:
     """The joint in URDF; `strength` is written for an unlimited effort or velocity, unless it is None."""
-    if joint.type in BALLS:  # it came from a dialect of URDF; another one is a chain by now
+    if joint.type in BALLS or (
+        joint.type in DRAKE_TYPES and find_annotation(joint, DRAKE)
+    ):  # it came from a dialect of URDF; another one is a chain by now
         return joint
     if joint.type not in _TYPES:
         message = f"joint {joint.name!r} is {joint.type}, a type that URDF does not have"

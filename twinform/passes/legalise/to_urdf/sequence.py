@@ -38,6 +38,7 @@ from twinform.passes.legalise.to_urdf.turn_frames_into_links import TurnFramesIn
 from twinform.passes.legalise.to_urdf.unfold_joints import UnfoldJoints
 from twinform.passes.legalise.to_urdf.unpack_urdf import UnpackUrdf
 from twinform.passes.legalise.to_urdf.upgrade_sdf import UpgradeSdf
+from twinform.passes.legalise.to_urdf.write_drake_joints import WriteDrakeJoints
 from twinform.passes.sdf_versions.fold_capsules import FoldCapsules
 from twinform.passes.sdf_versions.fold_shape_meshes import FoldShapeMeshes
 from twinform.passes.sdf_versions.spread_imu_noise import GatherImuNoise
@@ -107,6 +108,7 @@ def to_urdf(
         RestoreLumpedNames.unchecked(),
         UnpackUrdf.unchecked(urdf_version=urdf_version),
         RestoreInertias.unchecked(),
+        WriteDrakeJoints.unchecked(),
         PlaceFreeLinks.unchecked(carriers=carriers),
         # What came back from an older URDF begins to mean something.
         *(() if urdf_version == "1.0" else (FitUrdfVersion.unchecked(version=urdf_version),)),

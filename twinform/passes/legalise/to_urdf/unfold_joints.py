@@ -22,6 +22,7 @@ from twinform.passes.carriers.joint_chains import (
 from twinform.passes.carriers.token_mass import CHAIN_MASS, CHAIN_TOKEN
 from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
 from twinform.passes.legalise.urdf_pieces import BALLS
+from twinform.passes.shared.drake_joints import fit_for_drake
 from twinform.passes.shared.nodes import reserve_name, text_piece
 from twinform.schemas import format_value
 
@@ -99,7 +100,7 @@ class UnfoldJoints(ToUrdfPass):
     about z, y and x of its frame; 3. a screw joint slides by a joint that mimics the one that turns; 4. the last joint
     of a chain keeps name, place and child, and links of 2e-6 kg stand between; all are annotated, so that the reverse
     conversion folds them; 5. what mimics the first axis of a joint with two mimics the first joint of the chain; 6. a
-    ball joint that was one in URDF is one again.
+    ball joint that was one in URDF is one again, and so is a screw or universal joint that was Drake's.
     Never touches: joints that close a loop, which are joints of SDF in a `<gazebo>` element.
     Diagnostics: `unfolded-joint`; `joint-type-unsupported` for a screw with a pitch of 0 rad/m.
     """
@@ -115,6 +116,9 @@ class UnfoldJoints(ToUrdfPass):
         first: dict[str, str] = {}
         joints: list[Joint] = []
         for joint in model.joints:
+            if (own := fit_for_drake(joint)) is not None and joint.type != "ball":
+                joints.append(own)
+                continue
             if joint.type not in CHAINS or _was_in_urdf(joint) or _lacks_pitch(joint, keeper):
                 joints.append(_restore_dialect_type(joint))
                 continue
