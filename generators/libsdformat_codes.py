@@ -16,7 +16,7 @@ from twinform.diagnostics.generated_files import main
 
 CASES = ROOT / "tests" / "cases" / "check"
 _EXPECT = re.compile(r"<!--\s*expect:\s*\w+\s+([\w-]+)\s*-->")
-_HEAD = "# What libsdformat finds, and what it does not\n\nMade by `make generate`."
+_HEAD = "# What libsdformat finds, and what it does not"
 _UNSEEN = "## Read without a finding"
 _ABOUT = """\
 The error codes of libsdformat 17 by name (numbers change between its versions), with the rules that find the same

@@ -12,11 +12,11 @@ Item = TypeVar("Item")
 
 
 def table(head: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
-    """A Markdown table; numbers are aligned to the right."""
+    """A Markdown table; numbers are aligned to the right, and a column without a name says what its row is about."""
     body = [[_cell(value) for value in row] for row in rows]
     numeric = [bool(body) and all(_is_number(row[i]) for row in body) for i in range(len(head))]
     rule = ["---:" if number else "---" for number in numeric]
-    return "\n".join("| " + " | ".join(cells) + " |" for cells in [list(head), rule, *body]) + "\n"
+    return "\n".join("| " + " | ".join(cells) + " |" for cells in [[name or "what" for name in head], rule, *body]) + "\n"
 
 
 def listing(

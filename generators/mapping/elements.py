@@ -23,8 +23,6 @@ _ABOUT = """\
 Every element and attribute of {title} as it is read and written here, a page for each type of element: type, default
 and limits, versions, what it means, what becomes of it in {other}, and a case file that proves it.
 [How to read the tables](../../explanation/mapping.md).
-
-These pages are made by `python -m generators.mapping.elements {format} docs/reference/{format}`; do not edit them.
 """
 _HEAD = ["element", "type", "versions", "meaning", "where it goes", "in the IR", "rules", "case"]
 

@@ -8,7 +8,7 @@ from testbed.markdown import paragraphs
 from twinform.diagnostics.generated_files import main
 from twinform.server.mapping import FORMATS, FormatName, sections
 
-_HEAD = "# Where every element goes\n\nMade by `make generate`."
+_HEAD = "# Where every element goes"
 _ABOUT = """\
 The pages of [URDF](../reference/urdf/README.md) and [SDF](../reference/sdf/README.md) say where each element and
 attribute goes in the other format, what is kept, changed and refused, and which case file proves it. Their sources are

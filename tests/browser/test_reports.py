@@ -2,7 +2,6 @@
 
 import io
 import time
-from importlib.resources import files
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -14,14 +13,13 @@ from tests.unit.report.models import EVIL, EXAMPLES, hostile, stand_in
 from twinform.report import build_report, html
 from twinform.report.content import View, make_page
 
-from .watched import Watched
+from .watched import Watched, violations
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page
 
 _ENOUGH = 300
 _CASES = Path(__file__).parents[1] / "cases/check"
-_AXE = {"runOnly": ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "best-practice"]}
 _FOCUSED = """async () => { await new Promise(done => setTimeout(done, 50));
   const e = document.activeElement, s = getComputedStyle(e);
   return [e.tagName, e.textContent.slice(0, 40), s.outlineStyle] }"""
@@ -79,19 +77,9 @@ def test_axe_finds_nothing(watched: Watched, tmp_path: Path, scheme: str) -> Non
     watched.page.emulate_media(color_scheme="dark" if scheme == "dark" else "light")
     page = _open(watched, tmp_path, _CASES / "all_at_once.urdf", EXAMPLES / "arm.urdf", view=None)
     page.evaluate("() => document.querySelectorAll('details').forEach(each => each.open = true)")
-    assert _violations(page) == []
+    assert violations(page) == []
     page = _open(watched, tmp_path, EXAMPLES / "rover.urdf", EXAMPLES / "sensor_base.urdf", view=None)
-    assert _violations(page) == []
-
-
-def _violations(page: "Page") -> list[str]:
-    """What axe-core says against a page: a rule, and the elements."""
-    page.evaluate((files("axe_playwright_python") / "axe.min.js").read_text(encoding="utf-8"))
-    return page.evaluate(
-        "async options => (await axe.run(document, options)).violations"
-        ".map(each => each.id + ': ' + each.nodes.map(node => node.html).join(' '))",
-        _AXE,
-    )
+    assert violations(page) == []
 
 
 def test_the_keyboard_reaches_everything_and_shows_where_it_is(watched: Watched, tmp_path: Path) -> None:

@@ -15,6 +15,8 @@ from urllib.parse import unquote, urlsplit
 
 import pytest
 
+from .watched import Watched, violations
+
 if TYPE_CHECKING:
     from playwright.sync_api import Page
 
@@ -154,3 +156,35 @@ def test_the_search_finds_what_people_look_for(address: str, page: "Page") -> No
         page.keyboard.press("Control+a")
         page.keyboard.type(query)
         page.wait_for_function(_FOUND, arg=f"{address}/{answer}")
+
+
+_LOOKED_AT = (
+    "index",
+    "start/install",
+    "how-to/xacro",
+    "tutorial/standard-robot",
+    "reference/commands",
+    "reference/urdf/joint",
+    "reference/rules/dangling-link",
+    "reference/profiles/drake",
+    "evidence/speed",
+)
+"""A page of each kind."""
+
+
+_WIDTHS = (390, 820, 1280)
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_pages_can_be_read_by_everybody(site: Path, watched: Watched, scheme: str) -> None:
+    watched.page.emulate_media(color_scheme="dark" if scheme == "dark" else "light")
+    watched.page.set_viewport_size({"width": _WIDTHS[-1], "height": 900})
+    for name in _LOOKED_AT:
+        page = watched.open(site / f"{name}.html")
+        page.locator("h1").wait_for()
+        assert violations(page) == [], name
+        assert page.locator("th:visible:empty").count() == 0, name
+        for width in _WIDTHS:  # the widest is the last: what moves as it grows, moves before the next page
+            page.set_viewport_size({"width": width, "height": 900})
+            page.wait_for_function("document.documentElement.scrollWidth <= document.documentElement.clientWidth")
+    assert watched.complaints == []

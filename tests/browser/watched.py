@@ -2,6 +2,7 @@
 
 from collections.abc import Generator
 from contextlib import contextmanager
+from importlib.resources import files
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -14,6 +15,8 @@ _KNOWN = ("THREE.Clock: This module has been deprecated.", "GPU stall due to Rea
 """Warnings of viser's client, and of renderers in software."""
 _INTERVENTION = "Unable to preventDefault inside passive event listener"
 """What Chromium says of viser's client when a part is dragged."""
+
+_AXE = {"preload": False, "runOnly": ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "best-practice"]}
 
 
 class Watched:
@@ -50,6 +53,16 @@ class Watched:
     def _refuse(self, dialog: "Dialog") -> None:
         self.complaints.append(f"dialog: {dialog.message}")
         dialog.dismiss()
+
+
+def violations(page: "Page") -> list[str]:
+    """What axe-core says against a page: a rule, and the elements."""
+    page.evaluate((files("axe_playwright_python") / "axe.min.js").read_text(encoding="utf-8"))
+    return page.evaluate(
+        "async options => (await axe.run(document, options)).violations"
+        ".map(each => each.id + ': ' + each.nodes.map(node => node.html).join(' '))",
+        _AXE,
+    )
 
 
 @contextmanager

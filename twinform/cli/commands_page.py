@@ -13,7 +13,6 @@ _INTRODUCTION = """\
 # Commands
 
 Every command with its options and examples, as `twinform COMMAND --help` prints them.
-This file is made by `python -m twinform.cli.commands_page docs/reference/commands.md`; do not edit it.
 """
 _WIDTH = 10_000
 """The width of help texts, whose lines must not be broken."""
@@ -42,7 +41,7 @@ def _chapter(name: str, command: click.Command) -> str:
     shown = command.examples.items() if isinstance(command, Command) else ()
     examples = "\n".join(f"{what}:\n\n```sh\n{typed}\n```\n" for what, typed in shown)
     about = "\n\n".join(_plain(part) for part in (command.help or "").split("\n\n"))
-    return f"## {name}\n\n```text\n{usage}\n```\n\n{about}\n\n| option | |\n| --- | --- |\n{options}\n\n{examples}"
+    return f"## {name}\n\n```text\n{usage}\n```\n\n{about}\n\n| option | what it does |\n| --- | --- |\n{options}\n\n{examples}"
 
 
 def _plain(text: str) -> str:

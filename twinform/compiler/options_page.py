@@ -14,9 +14,9 @@ _INTRODUCTION = """\
 
 What the functions of Python take as keywords, and the command line as flags: `load`, `loads`, `check`, `diff` and
 `convert` those of files, `convert` and `plan` those of conversions. A setting may stand in `twinform.toml`, with `-`
-for `_`. This file is made by `python -m twinform.compiler.options_page docs/reference/options.md`; do not edit it.
+for `_`.
 
-| keyword | of | flag | setting | |
+| keyword | of | flag | setting | what it does |
 | --- | --- | --- | --- | --- |
 """
 _OTHERS = {

@@ -20,12 +20,14 @@ def main(text: str, arguments: Sequence[str]) -> int:
     given = parser.parse_args(arguments)
     if given.check and given.file is None:
         parser.error("--check needs a file")
-    if given.check:
-        return _check(given.file, text)
     if given.file is None:
         sys.stdout.write(text)
-    else:
-        write_atomically(given.file, text)
+        return 0
+    if given.file.suffix == ".md":
+        text = _marked(text)
+    if given.check:
+        return _check(given.file, text)
+    write_atomically(given.file, text)
     return 0
 
 
@@ -44,6 +46,7 @@ def main_of_folder(pages: Mapping[str, str], arguments: Sequence[str]) -> int:
     parser.add_argument("--check", action="store_true", help="write nothing; exit 1 where a file is out of date")
     given = parser.parse_args(arguments)
     folder: Path = given.folder
+    pages = {name: _marked(text) for name, text in pages.items()}
     others = [file for file in folder.glob("*.md") if file.name not in pages]
     if given.check:
         for file in others:
@@ -55,6 +58,12 @@ def main_of_folder(pages: Mapping[str, str], arguments: Sequence[str]) -> int:
     for name, text in pages.items():
         write_atomically(folder / name, text)
     return 0
+
+
+def _marked(page: str) -> str:
+    """Say to whoever opens the file of a page that it is made, and not to who reads the page."""
+    title, _, rest = page.partition("\n")
+    return f"{title}\n\n<!-- Made by `make generate`; do not edit. -->\n{rest}"
 
 
 def _check(file: Path, text: str) -> int:

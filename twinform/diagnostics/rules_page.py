@@ -13,7 +13,6 @@ _INTRODUCTION = """\
 Every kind of finding. The page of each has an example, what is better, and where the rule comes from;
 `twinform explain RULE` prints it. The last column is the option of `twinform check` that fixes what was found, if there
 is a fix. `--select`, `--ignore` and `--deny` take a rule or a group, such as `physics`.
-This file is made by `python -m twinform.diagnostics.rules_page docs/reference/rules.md`; do not edit it.
 """
 _TABLE = """
 ## {group}

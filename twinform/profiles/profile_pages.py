@@ -18,8 +18,7 @@ is all that are tested. [Write a model for several consumers](../../how-to/write
 use them, and whether they are right is
 [measured](../../evidence/who_reads_it.md#what-loaders-do-and-what-their-profiles-say).
 
-*Refuses* is an error under `--for`, *drops* and *misreads* are warnings, *warns* is a note. This file is made by
-`python -m twinform.profiles.profile_pages docs/reference/profiles`; do not edit it.
+*Refuses* is an error under `--for`, *drops* and *misreads* are warnings, *warns* is a note.
 
 | profile | reads | what it is |
 | --- | --- | --- |

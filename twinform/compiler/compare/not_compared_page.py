@@ -130,8 +130,6 @@ _INTRODUCTION = """\
 test changes values of real files, and looks. Also the same are: another order of elements that have names, comments, a
 default that is written or not, and other notation for a number or a pose. The XPaths are those of the values, or of
 elements with all below them.
-This file is made by `python -m twinform.compiler.compare.not_compared_page docs/reference/not_compared.md`; do not
-edit it.
 """
 
 _COMPARED = ", ".join(f"`{path.removesuffix('/')}`" for path in OF_JOINTS)

@@ -18,8 +18,7 @@ _INTRODUCTION = """\
 
 Steps from IR to IR, sorted by name. `twinform passes NAME` prints one page, and also those of passes from other
 packages. A pipeline is text, such as `check-inertia,fill-limits{effort=100}`; quote it, as shells give braces a
-meaning. This file is made by `python -m twinform.passes.framework.passes_page docs/reference/passes.md`; do not edit
-it.
+meaning.
 """
 _WORDS: dict[object, str] = {str: "text", float: "number", int: "whole number", bool: "true or false"}
 

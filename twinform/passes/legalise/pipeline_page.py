@@ -18,7 +18,6 @@ _INTRODUCTION = """\
 
 What happens to a document between reading and writing, in order. `twinform convert --print-pipeline` prints it for one
 file, `--dump-ir-after PASS` and `--print-changes` show it happening, `--time-passes` prints how long each takes.
-This file is made by `python -m twinform.passes.legalise.pipeline_page docs/explanation/pipeline.md`; do not edit it.
 
 1. **Reading.** Parsing, the schema of the format and version, the typed document, and what it must keep beyond its
    schema. Findings up to here are those of `twinform check`.

@@ -14,8 +14,7 @@ _INTRODUCTION = """\
 # Systems and sensors of Gazebo
 
 What `add-plugin`, `add-sensor` and `check-plugins` know. An option of `add-plugin` is written as in the first column;
-one that may stand several times takes a list. This file is made by
-`python -m twinform.passes.plugins.plugins_page docs/reference/plugins.md`; do not edit it.
+one that may stand several times takes a list.
 """
 _TIMES = {"1": "needed", "+": "needed, repeats", "?": "", "*": "repeats"}
 
@@ -64,7 +63,7 @@ def _settings_section(type_: str) -> str:
         f"`add-sensor{{type={type_}}}`: called `{settings.name}`, {settings.rate:g} Hz.",
         "",
     ]
-    return "\n".join([*lines, _format_table("| option | where it is not given | |", rows)] if rows else lines)
+    return "\n".join([*lines, _format_table("| option | where it is not given | what it is |", rows)] if rows else lines)
 
 
 def _system_section(kind: PluginKind) -> str:
@@ -76,7 +75,7 @@ def _system_section(kind: PluginKind) -> str:
     ]
     rows = [_option_row(option, path, row, kind) for option, (path, row) in _option_families(kind)]
     if rows:
-        lines.append(_format_table("| option | parameter | type | default | |", rows))
+        lines.append(_format_table("| option | parameter | type | default | how often |", rows))
     for channel in kind.channels:
         verb = "reads" if channel.direction == ">" else "writes"
         renamed = f", or `{channel.parameter}`" if channel.parameter else ""
