@@ -16,7 +16,8 @@ def table(head: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
     body = [[_cell(value) for value in row] for row in rows]
     numeric = [bool(body) and all(_is_number(row[i]) for row in body) for i in range(len(head))]
     rule = ["---:" if number else "---" for number in numeric]
-    return "\n".join("| " + " | ".join(cells) + " |" for cells in [[name or "what" for name in head], rule, *body]) + "\n"
+    names = [name or "what" for name in head]
+    return "\n".join("| " + " | ".join(cells) + " |" for cells in [names, rule, *body]) + "\n"
 
 
 def listing(

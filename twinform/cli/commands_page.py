@@ -41,7 +41,8 @@ def _chapter(name: str, command: click.Command) -> str:
     shown = command.examples.items() if isinstance(command, Command) else ()
     examples = "\n".join(f"{what}:\n\n```sh\n{typed}\n```\n" for what, typed in shown)
     about = "\n\n".join(_plain(part) for part in (command.help or "").split("\n\n"))
-    return f"## {name}\n\n```text\n{usage}\n```\n\n{about}\n\n| option | what it does |\n| --- | --- |\n{options}\n\n{examples}"
+    listed = f"| option | what it does |\n| --- | --- |\n{options}"
+    return f"## {name}\n\n```text\n{usage}\n```\n\n{about}\n\n{listed}\n\n{examples}"
 
 
 def _plain(text: str) -> str:

@@ -63,7 +63,9 @@ def _settings_section(type_: str) -> str:
         f"`add-sensor{{type={type_}}}`: called `{settings.name}`, {settings.rate:g} Hz.",
         "",
     ]
-    return "\n".join([*lines, _format_table("| option | where it is not given | what it is |", rows)] if rows else lines)
+    return "\n".join(
+        [*lines, _format_table("| option | where it is not given | what it is |", rows)] if rows else lines
+    )
 
 
 def _system_section(kind: PluginKind) -> str:

@@ -1,6 +1,7 @@
 from twinform.passes.plugins.catalog import sensors, systems
 from twinform.passes.plugins.plugins_page import plugins_page
 
+
 def test_everything_in_the_catalog_is_on_the_page() -> None:
     page = plugins_page()
     assert all(f"\n## system {name}\n" in page for name in systems())
