@@ -7,5 +7,6 @@ SECTIONS = {
     "gazebo_runs": "Conversions in Gazebo's own physics",
     "contacts": "Contacts",
     "versions": "Versions of SDF",
+    "older_urdf": "Versions of URDF",
 }
 """The sections of the page by the names of their modules, each with its title, in the order of the page."""

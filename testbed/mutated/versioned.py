@@ -40,7 +40,7 @@ _SHAPES = {**_NUMBERS_OF, "capsule": {"radius": 1, "length": 1}, "mesh": {"filen
 _ODD_SHAPES = ("cone", "Box", "ellipsoid", "plane")
 _FILES = ("package://r/a.stl", "a.dae")
 _ODD_FILES = ("", " ", "file:///a.obj")
-_QUATERNIONS = ("0 0 0.6 0.8", "0 0 0 1")
+_QUATERNIONS = ("0.48 0.36 0 0.8", "0 0 0 1")
 _ODD_QUATERNIONS = ("0 0 0 0", "1 2 3 4", "0 0 1", "0 0 0 inf", "x 0 0 1", "", "0 0 0 1 0", "0  0 0 1", "0 0 0 1e-9")
 _ANGLES = ("0 0 0", "0.1 0.2 0.3")
 _ODD_ANGLES = ("0 0", "x y z", "", " 0 0  0 ", "0 0 0 0", "nan 0 0")
@@ -50,7 +50,8 @@ _ODD_AXES = ("0 0 0", "0 0", "", "x 0 1", "0 0 -2", "inf 0 0")
 _COLORS = ("1 0 0 1", "0.5 0.5 0.5 0.1")
 _ODD_COLORS = ("1 0 0", "255 0 0 1", "-1 0 0 1", "", "x 0 0 1", "1 0 0 1 1", "nan 0 0 1")
 _MATERIALS = ("red", "blue")
-_MOMENTS = {"ixx": "1", "iyy": "1", "izz": "1", "ixy": "0", "ixz": "0", "iyz": "0"}
+_MOMENTS = {"ixx": "1", "iyy": "1.5", "izz": "1.2", "ixy": "0.1", "ixz": "0", "iyz": "0"}
+"""Of a body that is another one when it is turned."""
 
 
 def versioned(seed: int) -> Mutated:

@@ -1,4 +1,4 @@
-"""Robots of every version of URDF, written in every other one: urdfdom 6 reads them, and the way back is the same."""
+"""Robots of every version of URDF, written in every other one, to urdfdom 6 and Pinocchio, and on the way back."""
 
 from pathlib import Path
 
@@ -10,6 +10,8 @@ from testbed.oracles import urdfdom
 from tests.profile import DEEP
 from twinform.compiler import as_refused
 from twinform.request_options import URDF_VERSIONS, UrdfVersion
+from twinform.testing import oracles
+from twinform.testing.oracles.robot_comparison import compared
 
 CHUNKS = 4
 EACH = 500 if DEEP else 40
@@ -45,6 +47,19 @@ def test_urdfdom_6_reads_what_is_written_in_another_version(chunk: int, version:
             complaints[path.name] = found
     assert complaints == {}
     assert len(paths) > EACH // 5
+
+
+@pytest.mark.skipif(not oracles.available("pinocchio"), reason="Pinocchio is not here: pip install '.[oracles]'")
+@pytest.mark.parametrize("version", URDF_VERSIONS)
+@pytest.mark.parametrize("chunk", range(CHUNKS))
+def test_pinocchio_which_reads_1_2_says_the_same_robot(chunk: int, version: UrdfVersion, tmp_path: Path) -> None:
+    differences: dict[str, str] = {}
+    for path in _accepted(chunk, tmp_path):
+        made = tmp_path / f"made-{path.name}"
+        made.write_text(twinform.convert(path, to="urdf", urdf_version=version).text, encoding="utf-8")
+        if not (found := compared(path, made, ("pinocchio", "pinocchio"), lumped=False)):
+            differences[path.name] = found.cause
+    assert differences == {}
 
 
 @pytest.mark.parametrize("chunk", range(CHUNKS))

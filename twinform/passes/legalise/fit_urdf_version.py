@@ -47,7 +47,8 @@ class FitUrdfVersion(Pass):
     3. the cylinder and the spheres of a capsule become that again;
     4. an attribute that the older version had no meaning for becomes what it says, if it is valid; a `quat_xyzw` that
        turns its part otherwise than the `rpy` beside it goes;
-    5. revolute and prismatic joints get the limits that were 0 by default (from 1.2 on).
+    5. revolute and prismatic joints get the limits that were 0 by default, and an effort or velocity below 0, which
+       Gazebo takes for no limit, goes (from 1.2 on).
 
     Diagnostics: `out-of-range` for a shape with a size of zero, which 1.2 does not have; in the ledger `other-words`,
     `outside-version`, `replaced-shape` and `unbounded-limit`.
@@ -156,6 +157,10 @@ def _raise_limit(joint: Joint, limit: Limit, sink: DiagnosticSink) -> Limit:
         sink.account(Fate.DROPPED, rules.OUTSIDE_VERSION, message, part.location_in(limit))
     if joint.type in {"revolute", "prismatic"}:
         update |= {name: 0.0 for name in _ENDS if getattr(limit, name) is None}
+    for name in (name for name in _STRENGTH if (getattr(limit, name) or 0) < 0):
+        update[name] = None
+        message = f"the {name} of joint {joint.name!r} is below 0, which URDF 1.2 does not have: it has no limit"
+        sink.account(Fate.APPROXIMATED, rules.UNBOUNDED_LIMIT, message, limit.location.at(f"@{name}"))
     return limit.copy(**update, opaque=_others(limit, late)) if update or late else limit
 
 
