@@ -1,5 +1,7 @@
-"""Do the profiles say what the loaders do? Every loader reads the corpus and mutated files, beside its profile."""
+"""Do the profiles say what the loaders do? Every loader reads the corpus and made files, beside its profile."""
 
+import itertools
+import re
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from pathlib import Path
@@ -12,17 +14,20 @@ from testbed.corpus.files import Kind
 from testbed.engines.readers import LOADERS, Verdict
 from testbed.engines.readers.meshless import without_meshes
 from testbed.markdown import cross_table, listing, subsection, table
-from testbed.mutated.mutated import mutated
+from testbed.mutated.mutated import Mutated, mutated
+from testbed.mutated.versioned import versioned
 from testbed.output_files import OUT, kept
 
 KNOWN = Known.beside(__file__, contains)
 MUTATED = 2000
 _SECONDS = 600
+_NEWER = re.compile(rb'<robot[^>]* version="1\.[12]"')
 _ABOUT = """\
-Every URDF of the corpus, and 2,000 mutated ones (files of the corpus with one to four mistakes each, as in
-[verdicts](mistakes_found.md#mutated-files-before-the-parsers-of-record)), are read by every loader in a process of its
-own, and assessed by its profile, as `twinform check --for` does it. A box of 0.1 m stands for each mesh, in the
-text, so that broken files stay broken: no loader is asked for meshes that are not there.
+Every URDF of the corpus, 2,000 mutated ones (files of the corpus with one to four mistakes each, as in
+[verdicts](mistakes_found.md#mutated-files-before-the-parsers-of-record)), and 500 that are drawn, of URDF 1.1 and 1.2,
+are read by every loader in a process of its own, and assessed by its profile, as `twinform check --for` does it. Each
+release that PyPI or the system has is a loader of its own. A box of 0.1 m stands for each mesh, in the text, so that
+broken files stay broken: no loader is asked for meshes that are not there.
 
 A loader *refuses* a file where it throws, returns nothing, crashes or comes to no end; it *warns* where it writes a
 warning or an error on the terminal and goes on. A pair of a file and a loader *agrees* where both refuse; or neither
@@ -41,9 +46,10 @@ def measure(sample: Sample) -> Findings:
         Job(f"corpus/{file.name}", _boxed(file.path, Path("corpus", file.name))) for file in sample.models(Kind.URDF)
     ]
     first = (sample.seed - 1) * MUTATED
-    seeds = range(first, first + MUTATED, sample.every) if not sample.files else ()
-    made = [Job(f"mutated/{seed}", _mutated(seed)) for seed in seeds]
-    found, failures = sample.lists(pairs, [*corpus, *made], seconds=_SECONDS)
+    seeds = range(first, first + (0 if sample.files else MUTATED), sample.every)
+    made = [Job(f"mutated/{seed}", _kept("mutated", mutated(Kind.URDF, seed))) for seed in seeds]
+    newer = [Job(f"versions/{each.seed}", _kept("versions", each)) for each in _of_newer_versions(seeds)]
+    found, failures = sample.lists(pairs, [*corpus, *made, *newer], seconds=_SECONDS)
     found.sort(key=lambda pair: (pair.loader, pair.name))
     causes = {pair: _cause(pair) for pair in found if pair.difference}
     faults = [
@@ -60,8 +66,15 @@ def _boxed(path: Path, name: Path) -> Path:
     return kept(OUT / "loaders" / name.parent / f"{name.stem}.urdf", without_meshes(path.read_bytes()))
 
 
-def _mutated(seed: int) -> Path:
-    return kept(OUT / "loaders" / "mutated" / f"{seed}.urdf", without_meshes(mutated(Kind.URDF, seed).text))
+def _kept(folder: str, made: Mutated) -> Path:
+    return kept(OUT / "loaders" / folder / f"{made.seed}.urdf", without_meshes(made.text))
+
+
+def _of_newer_versions(seeds: range) -> list[Mutated]:
+    """Documents of URDF 1.1 and 1.2, one for each fourth mutated one."""
+    drawn = (versioned(seed) for seed in itertools.count(seeds.start))
+    newer = (each for each in drawn if _NEWER.search(each.text))
+    return list(itertools.islice(newer, len(seeds) // 4))
 
 
 def _cause(pair: Pair) -> str:

@@ -40,6 +40,7 @@ UNTOLD = {
     "mujoco": {
         "axis: xyz: '0 0 1e300'", "material: nan", "robot: Robot",
     },
+    "newton": {"material: color and texture", "material: global, with a texture"},
     "usd": {
         "name: robot: a back slash", "material: texture", "material: color and texture", "material: texture by package",
         "material: global, with a texture",

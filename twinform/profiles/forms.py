@@ -125,6 +125,12 @@ def fits_bytes(text: str) -> bool:
     return all(-1 < float(piece) * 255 < 256 for piece in pieces)
 
 
+def _is_opacity(text: str) -> bool:
+    """Whether the fourth number, if there is one, is from 0 to 1."""
+    fourth = text.split()[3:4]
+    return not fourth or not _is_python(fourth[0]) or 0 <= float(fourth[0]) <= 1
+
+
 def _are_bounded(text: str) -> bool:
     """Whether no number is infinite; NaN passes."""
     return not any(_is_python(piece) and math.isinf(float(piece)) for piece in text.replace(",", " ").split())
@@ -143,6 +149,10 @@ FORMS: Mapping[str, tuple[str, Callable[[str], bool]]] = {
     "stream3": (
         "three numbers with blanks between them",
         lambda text: [*map(_is_stream, _split_at_blanks(text))] == [True] * 3,
+    ),
+    "stream4": (
+        "four numbers with blanks between them",
+        lambda text: [*map(_is_stream, _split_at_blanks(text))] == [True] * 4,
     ),
     "unit": ("numbers from 0 to 1 with blanks between them", _are_from_0_to_1),
     "blank4": ("four numbers with blanks between them", lambda text: len(_split_at_blanks(text)) == 4),
@@ -171,6 +181,10 @@ FORMS: Mapping[str, tuple[str, Callable[[str], bool]]] = {
     "python": ("a number such as 0.5 or 1e-3", _is_python),
     "python3": ("three numbers", lambda text: _are_python(text, 3)),
     "python4": ("four numbers", lambda text: _are_python(text, 4)),
+    "python?": ("a number such as 0.5 or 1e-3", lambda text: not text or _is_python(text)),
+    "python3?": ("three numbers", lambda text: not text or _are_python(text, 3)),
+    "python3+?": ("three numbers", lambda text: not text or (_are_python(text) and len(text.split()) >= 3)),
+    "opaque": ("a last number from 0 to 1", _is_opacity),
     "python34": ("three or four numbers", lambda text: _are_python(text, 3, 4)),
     "pythons": ("numbers", _are_python),
     "python1or3+": ("three numbers", lambda text: _are_python(text) and len(text.split()) not in {0, 2}),

@@ -11,7 +11,8 @@ A line may begin with one more column that says when it holds: `@SINCE..UNTIL` i
 `urdf=SINCE..UNTIL` for files of these versions. One of the two may be left out; without `..` it is this one alone.
 
 Other lines have a word first: `parser NAME` is the XML parser, `skips NAME` the attribute by which the consumer skips
-an element, `like CONSUMER@RELEASE` the table that this one adds to, and `without ITEM` leaves out what that says of it.
+an element, `like CONSUMER@RELEASE` the table that this one adds to, and `without ITEM  EFFECT` leaves out what that
+says of an item.
 """
 
 import re
@@ -100,7 +101,7 @@ def reads(consumer: str) -> Reads:
             base = reads(columns[1])
             parser, demands = parser or base.parser, [*base.demands, *demands]
         elif columns[0] == "without":
-            demands = [each for each in demands if each.item != columns[1]]
+            demands = [each for each in demands if [each.item, each.effect] != columns[1:]]
         else:
             demands.append(_parse_demand(columns, versions))
     return Reads(parser, tuple(demands), skips)

@@ -1,7 +1,7 @@
 """Facts about the links, joints and materials of a robot as a whole: names, references, and the shape of the tree."""
 
 from collections import Counter
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 
 from twinform.ir.groups import Groups
 from twinform.profiles import colors, dynamics_facts, lumped_masses, sdformat_facts, stage
@@ -192,23 +192,72 @@ def _two_parents(root: RawNode) -> Fact:
 
 def _circular_links(root: RawNode) -> Fact:
     """Joints in a circle, or below one: no root leads to them."""
-    above = {child: parent for parent, child in map(joint_ends, root.all("joint"))}
-    circular = dict[str, bool]()
+    circular = _lead_into_circles({child: parent for parent, child in map(joint_ends, root.all("joint"))})
     for joint in root.all("joint"):
-        way, name = dict[str, None](), joint_ends(joint)[1]
-        # What an earlier joint decided is not walked again, so the whole stays linear.
-        while name in above and name not in way and name not in circular:
+        if joint_ends(joint)[1] in circular:
+            yield joint, f"joint {joint.name!r} is in a circle, or below one"
+
+
+def _lead_into_circles(above: Mapping[str, str]) -> set[str]:
+    """The names from which one that is above another leads into a circle."""
+    known = dict[str, bool]()
+    for start in above:
+        way, name = dict[str, None](), start
+        # What an earlier name decided is not walked again, so the whole stays linear.
+        while name in above and name not in way and name not in known:
             way[name] = None
             name = above[name]
-        circular |= dict.fromkeys(way, name in way or circular.get(name, False))
-        if circular.get(joint_ends(joint)[1], False):
-            yield joint, f"joint {joint.name!r} is in a circle, or below one"
+        known |= dict.fromkeys(way, name in way or known.get(name, False))
+    return {name for name, circular in known.items() if circular}
+
+
+def _no_root_of_joints(root: RawNode) -> Fact:
+    """The first joint, where every parent of a joint is a child of another one."""
+    ends = [joint_ends(joint) for joint in root.all("joint")]
+    if ends and {parent for parent, _ in ends} <= {child for _, child in ends}:
+        yield next(root.all("joint")), "every parent of a joint is the child of another one"
+
+
+def _second_trees(root: RawNode) -> Fact:
+    """Joints below a second root: a parent that no joint has as its child, after the first such one by name."""
+    joints = list(root.all("joint"))
+    children = {joint_ends(joint)[1] for joint in joints}
+    roots = [joint for joint in joints if joint_ends(joint)[0] not in children]
+    first = min((joint_ends(joint)[0] for joint in roots), default="")
+    for joint in roots:
+        if (parent := joint_ends(joint)[0]) != first:
+            yield joint, f"link {parent!r} is a second root"
+
+
+def _lone_links(root: RawNode) -> Fact:
+    """Links that are at the end of no joint, where there are joints."""
+    held = {end for joint in root.all("joint") for end in joint_ends(joint)}
+    for link in root.all("link") if held else ():
+        if link.name not in held:
+            yield link, f"link {link.name!r} is at the end of no joint"
+
+
+def _circular_mimics(root: RawNode) -> Fact:
+    """Joints that follow themselves, directly or through others, and joints that follow those."""
+    leaders = {joint.name: joint.value("mimic", "joint") or "" for joint in root.all("joint")}
+    circular = _lead_into_circles(leaders)
+    for joint in root.all("joint"):
+        if joint.name in circular:
+            yield joint, f"joint {joint.name!r} follows itself, or one that does"
 
 
 def _links_without_inertial(root: RawNode) -> Fact:
     for link in root.all("link"):
         if link.first("inertial") is None and link.name != "world":
             yield link, f"link {link.name!r} has no <inertial>"
+
+
+def _links_with_shapes_alone(root: RawNode) -> Fact:
+    for link in root.all("link"):
+        inertial = link.first("inertial")
+        shaped = any(geometry.children for geometry in link.all("collision", "geometry"))
+        if shaped and (inertial is None or inertial.first("mass") is None):
+            yield link, f"link {link.name!r} has collisions and no <mass>"
 
 
 def _idle_leaders(root: RawNode) -> Fact:
@@ -260,7 +309,12 @@ FACTS: FactTable = {
     "no-root": _no_root,
     "two-parents": _two_parents,
     "circle": _circular_links,
+    "no-root-of-joints": _no_root_of_joints,
+    "second-tree": _second_trees,
+    "lone-link": _lone_links,
+    "circular-mimic": _circular_mimics,
     "weightless-link": _links_without_inertial,
+    "shapes-alone": _links_with_shapes_alone,
     "foreign-joint": _foreign_joints,
     **dynamics_facts.FACTS,
     **colors.FACTS,

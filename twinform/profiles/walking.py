@@ -119,6 +119,9 @@ def _check_attribute(demand: Demand, node: RawNode) -> Iterator[Shortfall]:
     if demand.form == "none":
         yield from (_unread_attribute(demand, node, name) for name in given)
         return
+    if demand.form == "once":
+        yield from (_unread_attribute(demand, node, name) for name in given[1:])
+        return
     if not given and demand.needed:
         wanted = " or ".join(map(repr, names))
         yield _shortfall(demand, "absent", f"<{node.tag}> has no attribute {wanted}", node, expected=wanted)

@@ -1,4 +1,4 @@
-"""Readers that build a robot which can move: DART, Drake, MuJoCo, Pinocchio, PyBullet, urdf-usd-converter's USD."""
+"""Readers that build a robot which can move: DART, Drake, MuJoCo, Newton, Pinocchio, PyBullet, urdf-usd-converter."""
 
 import importlib
 import tempfile
@@ -54,6 +54,15 @@ def mujoco(path: Path) -> Answer:
     bodies = [model.body(i) for i in range(1, model.nbody)]
     joints = (model.joint(i).name for i in range(model.njnt))
     return Answer("", kept((body.name for body in bodies), joints, ((b.name, b.mass[0]) for b in bodies), model.ngeom))
+
+
+def newton(path: Path) -> Answer:
+    """The builder of a model, by its own reader of URDF; names have that of the robot before them."""
+    builder = _module("newton").ModelBuilder()
+    builder.add_urdf(str(path))
+    links = [str(label).rpartition("/")[2] for label in builder.body_label]
+    joints = [name for label in builder.joint_label if (name := str(label).rpartition("/")[2]) != "fixed_base"]
+    return Answer("", kept(links, joints, zip(links, builder.body_mass, strict=True), builder.shape_count))
 
 
 def pinocchio(path: Path) -> Answer:

@@ -15,6 +15,7 @@ FUNCTIONS: Mapping[str, Callable[[Path], Answer]] = {
     "drake": engines.drake,
     "drake with a scene": engines.drake_with_scene,
     "mujoco": engines.mujoco,
+    "newton": engines.newton,
     "pinocchio": engines.pinocchio,
     "pybullet": engines.pybullet,
     "yourdfpy": parsers.yourdfpy,
@@ -32,6 +33,8 @@ def prepare(name: str) -> None:
     """Import what a reader needs, once for all files."""
     for module in _MODULES.get(name, ()):
         importlib.import_module(module)
+    if name == "newton":
+        importlib.import_module("warp").init()
 
 
 _DRAKE = ("pydrake.multibody.plant", "pydrake.multibody.parsing", "pydrake.systems.framework", "pydrake.geometry")
@@ -40,6 +43,7 @@ _MODULES: Mapping[str, tuple[str, ...]] = {
     "drake": _DRAKE,
     "drake with a scene": _DRAKE,
     "mujoco": ("mujoco",),
+    "newton": ("newton",),
     "pinocchio": ("pinocchio",),
     "pybullet": ("pybullet",),
     "yourdfpy": ("yourdfpy",),

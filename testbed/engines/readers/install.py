@@ -4,7 +4,7 @@ import subprocess
 import sys
 from collections.abc import Mapping
 
-from testbed.engines.readers.installed import folder_of, python_version_of, version_in
+from testbed.engines.readers.installed import folder_of, python_for, version_in
 from testbed.engines.readers.loaders import LOADERS
 
 _BESIDE: Mapping[str, tuple[str, ...]] = {
@@ -13,7 +13,6 @@ _BESIDE: Mapping[str, tuple[str, ...]] = {
     "pin==3.9.0": ("cmeel-urdfdom<5", "cmeel-tinyxml2<11"),
 }
 """The libraries that a package was built with, where it does not ask for these versions."""
-_PLATFORM = "manylinux_2_36_x86_64"
 
 
 def install(package: str, version: str) -> None:
@@ -21,14 +20,15 @@ def install(package: str, version: str) -> None:
 
     Raises:
         CalledProcessError: pip finds no such release.
+        FileNotFoundError: the Python that it needs is not here.
     """
-    requirement, folder = f"{package}=={version}", folder_of(package, version)
+    requirement, folder, python = f"{package}=={version}", folder_of(package, version), python_for(package, version)
     if version_in(folder, package):
         return
-    command = [sys.executable, "-m", "pip", "install", "-qqq", "--disable-pip-version-check"]
-    if wanted := python_version_of(requirement):
-        command += ["--python-version", wanted, "--platform", _PLATFORM, "--only-binary", ":all:"]
-    print(f"{folder.name}", flush=True)
+    if python is None:
+        raise FileNotFoundError("a newer Python")
+    print(requirement, flush=True)
+    command = [sys.executable, "-m", "pip", "--python", python, "install", "-qqq", "--disable-pip-version-check"]
     subprocess.run([*command, "--target", str(folder), requirement, *_BESIDE.get(requirement, ())], check=True)
 
 
@@ -38,8 +38,8 @@ def main() -> None:
         if loader.package is not None:
             try:
                 install(*loader.package)
-            except subprocess.CalledProcessError:
-                print(f"{loader.consumer} cannot be installed")
+            except (subprocess.CalledProcessError, FileNotFoundError) as error:
+                print(f"{loader.consumer} cannot be installed: {error}")
 
 
 if __name__ == "__main__":

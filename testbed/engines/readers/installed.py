@@ -1,20 +1,22 @@
 """Readers in other releases than the environment has: each is installed in a folder of its own below `out/readers`.
 
-A package that needs a newer Python than ours is run by one that is on the path.
+One that needs a newer Python than ours is run by the first newer one that is here.
 """
 
 import os
 import shutil
+import subprocess
 import sys
-from collections.abc import Mapping
+from functools import cache
 from importlib.metadata import PathDistribution, distributions
 from pathlib import Path
 
 from testbed.output_files import OUT
 
 _ROOT = Path(__file__).parents[3]
-_PYTHONS: Mapping[str, str] = {f"drake==1.{minor}": "3.13" for minor in range(52, 59)}
-"""The version of Python that a package needs, by how its requirement begins."""
+# Drake has wheels for 3.12 and newer alone from 1.52 on.
+_NEED_NEWER = tuple(f"drake==1.{minor}." for minor in range(52, 60))
+_NEWER = ("python3.12", "python3.13", "python3.14")
 
 
 def folder_of(package: str, version: str) -> Path:
@@ -29,9 +31,22 @@ def version_in(folder: Path, package: str) -> str:
 
 
 def python_for(package: str, version: str) -> str | None:
-    """The program of Python that runs a package; None where it is not on the path."""
-    wanted = python_version_of(f"{package}=={version}")
-    return shutil.which(f"python{wanted}") if wanted else sys.executable
+    """The program of Python that runs a package; None where there is none."""
+    if sys.version_info >= (3, 12) or not f"{package}=={version}".startswith(_NEED_NEWER):
+        return sys.executable
+    return _newer_python()
+
+
+@cache
+def _newer_python() -> str | None:
+    """The first newer Python that runs: on the path, or one of pyenv, whose command on the path may only be a hint."""
+    of_pyenv = (str(each) for name in _NEWER for each in sorted(Path.home().glob(f".pyenv/versions/*/bin/{name}")))
+    found = (*filter(None, map(shutil.which, _NEWER)), *of_pyenv)
+    return next((each for each in found if _runs(each)), None)
+
+
+def _runs(program: str) -> bool:
+    return subprocess.run([program, "-c", ""], check=False, capture_output=True).returncode == 0
 
 
 def import_path(folder: Path) -> str:
@@ -39,8 +54,3 @@ def import_path(folder: Path) -> str:
     # wheels of cmeel have all in a prefix, which a .pth file names that is read in environments only
     inside = sorted(folder.glob("cmeel.prefix/lib/python*/site-packages"))
     return os.pathsep.join(map(str, (_ROOT, folder, *inside)))
-
-
-def python_version_of(requirement: str) -> str:
-    """The version of Python that a package needs; empty where ours will do."""
-    return next((wanted for begin, wanted in _PYTHONS.items() if requirement.startswith(f"{begin}.")), "")

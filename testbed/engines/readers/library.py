@@ -174,11 +174,12 @@ READERS = (
     _python("xacro", _URDF, "xacro", "xacro"),
     _python("lxml", _BOTH, "lxml", "lxml"),
 )
-SCENES = (
+OTHERS = (
+    _python("newton", _URDF, "newton", "newton"),
     _python("drake with a scene", _BOTH, "pydrake", "drake"),
     _python("yourdfpy with a scene", _URDF, "yourdfpy", "yourdfpy"),
 )
-"""Those that look at shapes and materials, too, and so need the meshes of a file."""
+"""Those that profiles are about alone: Newton, and two that look at shapes and materials, and so need meshes."""
 
 
 def elsewhere(reader: Reader, package: str, version: str, name: str = "") -> Reader:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
 
-from testbed.engines.readers.library import READERS, SCENES, Reader, Reading, elsewhere
+from testbed.engines.readers.library import OTHERS, READERS, Reader, Reading, elsewhere
 from twinform.profiles.profile import release_of, releases_of
 
 _URDFDOM = r"^(?:Error|Warning): "
@@ -54,17 +54,18 @@ class Loader:
         return self.reader.ask(path)
 
 
-_NAMED: Mapping[str, Reader] = {reader.name: reader for reader in (*READERS, *SCENES)}
+_NAMED: Mapping[str, Reader] = {reader.name: reader for reader in (*READERS, *OTHERS)}
 
 
 def _loaders(profile: str, reader: str, remark: str, package: str = "", otherwise: str = "") -> Iterator[Loader]:
     """A loader for each release that a profile was seen in.
 
-    The environment's reader is the release of its version, and otherwise the newest. The others are releases of the
-    `package`, and asked by the function `otherwise` where that is another one.
+    The environment's reader, if there is one, is the release of its version, and otherwise the newest. The others are
+    releases of the `package`, and asked by the function `otherwise` where that is another one.
     """
     seen, usual = [each for each in releases_of(profile) if each.seen], _NAMED[reader]
-    own = next((each for each in seen if each.seen == usual.version()), seen[-1])
+    here = seen[-1] if usual.version() or not package else None
+    own = next((each for each in seen if each.seen == usual.version()), here)
     for each in seen:
         other = None if each is own else (package, each.seen)
         found = elsewhere(usual, *other, otherwise) if other else usual
@@ -77,6 +78,7 @@ LOADERS = (
     *_loaders("dart", "dart", r"^(?:Error|Warning)\b|\[warning\]"),
     *_loaders("drake", "drake with a scene", r"^(?:WARNING|ERROR):drake", "drake"),
     *_loaders("mujoco", "mujoco", r"WARNING", "mujoco"),
+    *_loaders("newton", "newton", r"Warning:", "newton"),
     *_loaders("pinocchio", "pinocchio", _URDFDOM, "pin"),
     *_loaders("pybullet", "pybullet", r"b3Warning|b3Error"),
     *_loaders("yourdfpy", "yourdfpy with a scene", r"."),

@@ -81,12 +81,48 @@ def test_values_stay_as_they_are_written() -> None:
 
 
 def test_a_table_is_like_another_one_but_for_what_it_says() -> None:
-    demands, base = reads("pinocchio@4").demands, reads("urdfdom@6.0").demands
+    demands, base = reads("pinocchio@3").demands, reads("urdfdom@4.0").demands
     assert base == demands[: len(base)]
     assert len(base) < len(demands)
+    silent = {each for each in reads("urdfdom@6.0").demands if each.effect == "warns"}
+    assert not silent & set(reads("pinocchio@4").demands)
     demands, base = reads("gazebo").demands, reads("urdfdom@4.0").demands
     kept = tuple(each for each in base if each.item != "<joint>")  # in <gazebo>, which it reads
     assert kept == demands[: len(kept)]
+
+
+LATE = '<origin rpy="0 0 0" quat_xyzw="0 0 0 1"/>'
+
+
+@pytest.mark.parametrize(
+    ("version", "inside", "effects"),
+    [
+        ("1.0", '<limit effort="1" velocity="1"/>', []),
+        ("1.2", '<limit effort="1" velocity="1"/>', ["refuses", "refuses"]),
+        ("1.1", '<limit lower="0" upper="1"/>', ["refuses", "refuses"]),
+        ("1.2", '<limit lower="0" upper="1"/>', []),
+        ("+1.02", '<limit lower="0" upper="1"/>', []),
+        ("1.1", '<limit effort="-1" velocity="1" jerk="x"/>', ["warns"]),
+        ("1.2", '<limit lower="0" upper="1" effort="-1" jerk="x"/>', ["refuses", "refuses"]),
+        ("1.2", '<limit lower="2" upper="1"/>', ["refuses"]),
+        ("1.0", f'{LATE}<limit effort="1" velocity="1"/>', ["warns"]),
+        ("1.1", f'{LATE}<limit effort="1" velocity="1"/>', ["refuses"]),
+    ],
+)
+def test_a_line_is_about_the_version_that_the_file_declares(version: str, inside: str, effects: list[str]) -> None:
+    limit = '<limit lower="-1" upper="1" effort="1" velocity="1"/>'
+    text = ROBOT.replace('name="r"', f'name="r" version="{version}"').replace(limit, inside)
+    assert [each.effect for each in read_as("urdfdom@rolling", text.encode())] == effects
+
+
+@pytest.mark.parametrize(
+    ("version", "size", "effects"),
+    [("1.0", "1", ["drops", "drops"]), ("1.1", "1", []), ("1.1", "0", []), ("1.2", "1", []), ("1.2", "0", ["drops"])],
+)
+def test_a_capsule_is_one_since_the_version_that_has_it(version: str, size: str, effects: list[str]) -> None:
+    capsule = f'<visual><geometry><capsule radius="{size}" length="1"/></geometry></visual>'
+    text = ROBOT.replace('name="r"', f'name="r" version="{version}"').replace('name="a">', f'name="a">{capsule}', 1)
+    assert [each.effect for each in read_as("urdfdom@rolling", text.encode())] == effects
 
 
 def test_a_line_is_about_releases() -> None:
