@@ -11,9 +11,9 @@ _ROOT = Path(__file__).parents[1]
 _TEXT = (_ROOT / "docs" / "explanation" / "hostile-input.md").read_text(encoding="utf-8")
 KINDS = (
     "Models", "xacro", "SRDF and parameters", "JSON of the IR", "Configurations", "Path patterns", "Baselines",
-    "Reproducers", "Meshes and textures", "Archives", "Manifests", "The cache of Fuel", "Results of earlier runs",
-    "File names and links", "Environment variables", "The editor's protocol", "The 3D view", "Batches and Dask",
-    "Passes and plugins of others",
+    "Reproducers", "Meshes and textures", "USD", "Archives", "Manifests", "The cache of Fuel",
+    "Results of earlier runs", "File names and links", "Environment variables", "The editor's protocol",
+    "The tools of agents", "The 3D view", "Batches and Dask", "Passes and plugins of others",
 )  # fmt: skip
 _SECTIONS = dict(re.findall(r"^## (.+)\n((?:(?!## ).*\n)*)", _TEXT, re.MULTILINE))
 _ROW = re.compile(r"^\| \[(.+?)\]\(#.+?\)((?: \| [^|\n]+){5}) \|$", re.MULTILINE)

@@ -309,7 +309,7 @@ def diff(
     carriers: bool = False,
     **options: Unpack[FileOptions],
 ) -> Comparison:
-    """Compare the robots in two files or documents, of either format. Includes are always expanded.
+    """Compare the robots in two files or documents, of either format or USD. Includes are always expanded.
 
     Example:
         >>> found = twinform.diff("examples/rover.urdf", "examples/four_wheels.urdf")
@@ -365,9 +365,8 @@ def compare_files(
         robots, alike = dict[int, dict[ComparingReader, Robots]](), Memo()
         errors: dict[int, CompileError] = {}
         inputs, known = (a, b), None
-        for side in sorted(
-            range(2), key=lambda side: is_usd(inputs[side])
-        ):  # what names of USD may stand for comes first
+        # What names of USD may stand for is read first.
+        for side in sorted(range(2), key=lambda side: is_usd(inputs[side])):
             try:
                 robots[side] = read_robots(
                     inputs[side], load_options, name=names[side], model=model, readers=readers, alike=alike, known=known

@@ -88,7 +88,8 @@ def _read_source(source: str | Path | bytes, sink: DiagnosticSink, load_options:
     if is_usd(source):
         message = "this is USD, which `twinform diff` compares with other models; nothing else is made of it"
         sink.report(rules.USD_ONLY_COMPARED, message)
-        return LoadResult(sink.file, None, tuple(sink.diagnostics), unreadable=True)
+        text = source if isinstance(source, bytes) else None
+        return LoadResult(sink.file, None, tuple(sink.diagnostics), unreadable=True, content=text)
     if not isinstance(source, bytes):
         load_options.search.seen.add(Path(source))
     try:

@@ -54,7 +54,8 @@ def read_usd(
         stage = _Layers(load_options, sink).stage(source)
         document = _choose(build_document(stage, known), model, sink)
     except UnreadableError:
-        return LoadResult(name, None, tuple(sink.diagnostics), unreadable=True)
+        text = source if isinstance(source, bytes) else None
+        return LoadResult(name, None, tuple(sink.diagnostics), unreadable=True, content=text)
     return LoadResult(name, document, tuple(sink.diagnostics))
 
 

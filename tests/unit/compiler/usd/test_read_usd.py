@@ -135,6 +135,17 @@ def test_clips_and_variants_open_no_file(tmp_path: Path) -> None:
     assert rule_names(_project(tmp_path, text)) == ["unresolved-uri"]
 
 
+@pytest.mark.parametrize("text", [b"#usda 1.0\n}", b"PXR-USDC"])
+def test_bytes_that_are_broken_are_no_missing_file(text: bytes) -> None:
+    with pytest.raises(twinform.CompileError) as caught:
+        twinform.diff(URDF, text)
+    assert not isinstance(caught.value, FileNotFoundError)
+    with pytest.raises(twinform.CompileError) as caught:
+        twinform.convert(text, to="sdf")
+    assert [each.rule.name for each in caught.value.diagnostics] == ["usd-only-compared"]
+    assert not isinstance(caught.value, FileNotFoundError)
+
+
 @pytest.mark.parametrize(
     ("name", "content", "message"),
     [
