@@ -1,6 +1,7 @@
 """The options on what a file becomes: format, version, passes, and what goes along."""
 
 import math
+import re
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Annotated, Literal, TypedDict, get_args
 
@@ -40,6 +41,17 @@ def distance(text: str | float) -> float:
     return value
 
 
+def known_prefix(uri: str) -> str:
+    """Return the beginning of the URIs of new meshes unchanged.
+
+    Raises:
+        ValueError: it is no folder in a package of ROS or a model of Gazebo.
+    """
+    if not re.fullmatch(r"(package|model)://[^/\s]+(/[^\s]*)?", uri):
+        raise ValueError("takes package://NAME or model://NAME")
+    return uri
+
+
 class RequestOptions(TypedDict, total=False):
     """What a file becomes. `model` is the one that is meant of several; `keep_physics` is for the consumers' passes.
 
@@ -76,6 +88,15 @@ class RequestOptions(TypedDict, total=False):
             setting=True,
         ),
     ]
+    mesh_prefix: Annotated[
+        str | None,
+        Option(
+            help="What the URIs of such meshes begin with, such as package://arm; else they are relative paths.",
+            metavar="URI",
+            parse=known_prefix,
+            setting=True,
+        ),
+    ]
     side_files: bool
     comments: Annotated[bool, Option(help="Whether comments of the source go along.")]
     expand_includes: bool
@@ -94,6 +115,7 @@ class Requested:
     urdf_version: UrdfVersion | None = None
     carriers: bool = True
     shape_error: float | None = None
+    mesh_prefix: str | None = None
     side_files: bool = True
     comments: bool = True
     expand_includes: bool = False

@@ -123,8 +123,9 @@ class Outputs:
         """
         places = beside(result, [each.path for each in side_files])
         for place, side_file in zip(places, side_files, strict=True):
-            _require_ours(place.path, side_file)
-            if (place, side_file.content) not in self.texts:  # several models may share what was made of one mesh
+            is_there = _is_there(place.path, side_file)
+            # A mesh may be read and made again, and several models may share what was made of one.
+            if (self.check or not is_there) and (place, side_file.content) not in self.texts:
                 self.texts.append((place, side_file.content))
 
     def write(self, read: Iterable[Path] = ()) -> int:
@@ -172,14 +173,21 @@ def require_as_read(path: Path, before: bytes) -> None:
         raise Unusable(f"{path} has changed since it was read; nothing is written. Run the command again")
 
 
-def _require_ours(path: Path, side_file: SideFile) -> None:
-    """Raise a `UsageError` if a file that twinform has not written is at the place of a side file."""
+def _is_there(path: Path, side_file: SideFile) -> bool:
+    """Whether a side file is at its place already.
+
+    Raises:
+        click.UsageError: a file that twinform has not written is there.
+    """
     with suppress(OSError):  # writing the file will report it
         # A pipeline may come with a downloaded model, so it overwrites only files of twinform, by their first bytes.
         data = read_regular(path)
-        if not side_file.is_earlier(data[:HEAD]) and data != side_file.data:
+        if data == side_file.data:
+            return True
+        if not side_file.is_earlier(data[:HEAD]):
             message = f"{path} is there, and twinform has not written it: remove it, or have another name"
             raise click.UsageError(message)
+    return False
 
 
 _MOST_LINES = 400

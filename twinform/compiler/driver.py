@@ -68,6 +68,7 @@ def convert(
         carriers: Whether to keep what the target lacks in elements of tf:.
         shape_error: How far a mesh that stands for a shape which the target lacks may be from it, in m; else 1 % of its
             largest radius.
+        mesh_prefix: What the URIs of such meshes begin with, such as package://arm; else they are relative paths.
         side_files: Whether meshes may be made that have to lie beside the result, such as that of an ellipsoid.
         comments: Whether comments of the source go along.
         model: The model that is meant, where a file has several.

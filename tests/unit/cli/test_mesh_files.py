@@ -76,3 +76,58 @@ def test_a_batch_gives_each_model_a_folder(run: Run, robot: Path, tmp_path: Path
     assert done.exit_code == 0, done.stderr
     assert sorted(each.parent.name for each in (tmp_path / "out").rglob("*.obj")) == ["r", "s"]
     assert 'filename="meshes/r/ball.obj"' in (tmp_path / "out" / "r.urdf").read_text()
+
+
+EGG = """<sdf version="1.11"><model name="r"><link name="base"><inertial><mass>1</mass></inertial>
+<collision name="c"><geometry><ellipsoid><radii>0.1 0.2 0.3</radii></ellipsoid></geometry></collision>
+</link></model></sdf>"""
+
+
+@pytest.fixture
+def egg(tmp_path: Path) -> Path:
+    (tmp_path / "egg.sdf").write_text(EGG)
+    return tmp_path / "egg.sdf"
+
+
+def test_a_mesh_that_stands_for_a_shape_lies_beside_the_result(run: Run, egg: Path) -> None:
+    wanted = egg.parent / "out" / "egg.urdf"
+    done = run("convert", egg, "-o", wanted, "--shape-error", "0.001", "--mesh-prefix", "package://egg")
+    assert done.exit_code == 0, done.stderr
+    (mesh,) = (egg.parent / "out" / "meshes").iterdir()
+    assert f'filename="package://egg/meshes/{mesh.name}"' in wanted.read_text()
+    assert mesh.read_bytes().count(b"\nf ") == 3024
+    mesh.write_text("# mine\n")
+    assert "twinform has not written it" in run("convert", egg, "-o", wanted, "--shape-error", "0.001").stderr
+
+
+@pytest.mark.parametrize("error", ["0", "-1", "inf", "small"])
+def test_an_error_of_a_shape_is_a_distance(run: Run, egg: Path, error: str) -> None:
+    assert run("convert", egg, "-o", egg.parent / "egg.urdf", "--shape-error", error).exit_code == 2
+
+
+def test_a_printed_result_has_no_place_for_a_mesh(run: Run, egg: Path) -> None:
+    done = run("convert", egg)
+    assert done.exit_code == 0
+    assert "egg.sdf:2:2: warning: collision 'c' of link 'base' is an ellipsoid" in done.stderr
+    assert "name a file for the result with -o" in done.stderr
+    assert [*egg.parent.iterdir()] == [egg]
+
+
+def test_a_mesh_that_is_read_may_be_what_is_written(run: Run, egg: Path) -> None:
+    robot, older = egg.with_suffix(".urdf"), egg.parent / "older.sdf"
+    for done in (
+        run("convert", egg, "-o", robot),
+        run("convert", robot, "-o", older, "--sdf-version", "1.7"),
+        run("convert", egg, "--into", robot),
+        run("convert", older, "--in-place", "--sdf-version", "1.9"),
+    ):
+        assert done.exit_code == 0, done.stderr
+    assert "<ellipsoid>" in older.read_text()
+
+
+def test_a_package_takes_meshes_of_shapes_along(run: Run, egg: Path) -> None:
+    done = run("package", egg, "-o", egg.parent / "egg", "--kind", "both")
+    assert done.exit_code == 0, done.stderr
+    (mesh,) = (egg.parent / "egg" / "meshes").iterdir()
+    assert f"package://egg/meshes/{mesh.name}" in (egg.parent / "egg" / "urdf" / "egg.urdf").read_text()
+    assert "<ellipsoid>" in (egg.parent / "egg" / "model.sdf").read_text()

@@ -8,7 +8,6 @@ use the folder at a time.
 import hashlib
 import io
 import os
-import re
 from collections.abc import Callable, Generator, Mapping
 from contextlib import contextmanager, suppress
 from contextvars import ContextVar
@@ -30,6 +29,7 @@ from twinform.passes.mesh_jobs.job import BadMessageError, MeshJob, MeshResult, 
 from twinform.passes.mesh_jobs.mesh_files import MARK, install_readers
 from twinform.passes.meshes.mesh_source import MeshSource, MeshSources
 from twinform.passes.shared.mesh_solids import MeshError, submesh_of
+from twinform.request_options import known_prefix
 from twinform.storage.user_cache import prune, user_cache
 from twinform.storage.writing import write_atomically
 
@@ -193,9 +193,7 @@ class MeshPass(AssetPass, FilesPass):
     @field_validator("prefix")
     @classmethod
     def _check_prefix(cls, prefix: str) -> str:
-        if prefix and not re.fullmatch(r"(package|model)://[^/\s]+(/[^\s]*)?", prefix):
-            raise ValueError("takes package://NAME or model://NAME")
-        return prefix
+        return known_prefix(prefix) if prefix else prefix
 
     @property
     def place(self) -> str:

@@ -25,6 +25,7 @@ class ReplaceShapes(VersionPass):
 
     name: ClassVar[str] = "replace-shapes"
     shape_error: float | None = None
+    mesh_prefix: str | None = None
     side_files: bool = True
 
     def change(self, document: Document, keeper: VersionKeeper) -> Document:
@@ -34,6 +35,7 @@ class ReplaceShapes(VersionPass):
             f"SDF {self.version}",
             lambda kind: not has_shape(self.version, kind),
             self.shape_error,
+            self.mesh_prefix,
             self.side_files,
         )
 

@@ -80,6 +80,7 @@ def backward(new: Version, old: Version, requested: Requested | None = None) -> 
             version=print_version(old),
             carriers=carriers,
             shape_error=requested.shape_error,
+            mesh_prefix=requested.mesh_prefix,
             side_files=requested.side_files,
         )
     yield kinds.LeaveOut.unchecked(version=print_version(old), carriers=carriers)

@@ -9,7 +9,7 @@ Annotations say which they are, so that the reverse conversion folds them back:
 
 from collections.abc import Callable, Iterator
 from dataclasses import field
-from typing import TypeVar
+from typing import NamedTuple, TypeVar
 
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Fate, SideFile, rules
@@ -30,8 +30,9 @@ REPLACED = bits_of_ours(CAPSULE, CAPSULE_END, SHAPE)
 FOLDER = "meshes"
 """Where meshes are written, below the folder of the result."""
 _DIGITS = 12
-_MOST = 500
-"""Meshes of one result: a file of a stranger could ask for any number."""
+# A file of a stranger could ask for any number of meshes, each with a quarter of a million triangles.
+_MOST, _MOST_BYTES = 200, 2**26
+"""What the meshes of one result may be: shapes that differ, and bytes."""
 _HINTS = {
     "plane": "put the ground into the world, or write a box that is large enough",
     "heightmap": "name a mesh of the terrain",
@@ -43,20 +44,31 @@ class NoMeshError(ValueError):
     """No mesh can stand for a shape; the text says why, or what to do."""
 
 
+class _WrittenMesh(NamedTuple):
+    """The file name of a mesh, its size in bytes, and what there is to say of it."""
+
+    name: str
+    size: int
+    description: str
+
+
 @dataclass(frozen=True, slots=True)
 class ShapeReplacer:
     """Replaces shapes of the kinds that a target `lacks`.
 
     A mesh is at most `error` off, in m, or 1 % of the largest radius where it is None; none is written without
-    `side_files`.
+    `side_files`. The URIs of meshes begin with `prefix`, or are relative paths.
     """
 
     keeper: Keeper
     target: str
     lacks: Callable[[str], bool]
     error: float | None
+    prefix: str | None
     side_files: bool
-    _written: set[str] = field(default_factory=set[str])
+    _known: dict[Geometry, "_WrittenMesh | NoMeshError"] = field(
+        default_factory=dict[Geometry, "_WrittenMesh | NoMeshError"]
+    )
 
     def replace(self, part: AnyPart, link: str) -> AnyPart:
         """The part with a shape that the target has; of a capsule the middle, see `with_ends`.
@@ -75,41 +87,60 @@ class ShapeReplacer:
             return middle_of_capsule(part, shape)
         if shape.kind in _HINTS:
             raise NoMeshError(_HINTS[shape.kind])
-        from twinform.passes.shared.shape_meshes import format_length, mesh_of  # noqa: PLC0415 - few shapes need a mesh
-
-        mesh = mesh_of(geometry, self.error)
-        if not self.side_files:
-            raise NoMeshError("name a file for the result with -o, and a mesh is written beside it")
-        name = self._write(shape.kind, mesh.obj())
-        off = f"at most {format_length(mesh.error)} off and inside of it" if mesh.error else "with the same surface"
-        message = f"{what} becomes a mesh of {len(mesh.faces)} triangles, {off}: {self.target} has no {shape.kind}"
+        made_of = self._mesh(geometry, shape.kind)
+        message = f"{what} becomes a mesh of {made_of.description}: {self.target} has no {shape.kind}"
         self.keeper.sink.report(rules.REPLACED_SHAPE, message, shape.location, found=shape.kind)
         self._account(shape, message)
-        made = replace_fields(part, geometry=Geometry(shape=Mesh(uri=f"{FOLDER}/{name}")))
+        path = f"{FOLDER}/{made_of.name}"
+        uri = f"{self.prefix.rstrip('/')}/{path}" if self.prefix else path
+        made = replace_fields(part, geometry=Geometry(shape=Mesh(uri=uri)))
         if not self.keeper.carriers:
             return made
-        return carry(made, [piece(geometry, "geometry")], SHAPE, (("instead_of", name),))
+        return carry(made, [piece(geometry, "geometry")], SHAPE, (("instead_of", made_of.name),))
 
     def _account(self, shape: Node, message: str) -> None:
         self.keeper.sink.account(Fate.APPROXIMATED, rules.REPLACED_SHAPE, message, shape.location, count_parts(shape))
 
-    def _write(self, kind: str, data: bytes) -> str:
-        """Put a mesh beside the result, and return its name.
+    def _mesh(self, geometry: Geometry, kind: str) -> "_WrittenMesh":
+        """The mesh that stands for a geometry, written beside the result.
 
         Raises:
-            NoMeshError: there are too many.
+            NoMeshError: there is none, or there are too many.
         """
+        if geometry not in self._known:
+            size = sum(each.size for each in self._known.values() if isinstance(each, _WrittenMesh))
+            if len(self._known) >= _MOST or size > _MOST_BYTES:
+                raise NoMeshError(
+                    f"a result has meshes for no more than {_MOST} shapes, and of {_MOST_BYTES >> 20} MiB"
+                )
+            try:
+                self._known[geometry] = self._write(geometry, kind)
+            except NoMeshError as error:
+                self._known[geometry] = error
+        found = self._known[geometry]
+        if isinstance(found, NoMeshError):
+            raise found
+        return found
+
+    def _write(self, geometry: Geometry, kind: str) -> "_WrittenMesh":
+        """Put the mesh of a geometry beside the result.
+
+        Raises:
+            NoMeshError: there is none.
+        """
+        from twinform.passes.mesh_jobs.mesh_files import MARK  # noqa: PLC0415 - few shapes need a mesh
+        from twinform.passes.shared.shape_meshes import format_length, mesh_of  # noqa: PLC0415 - see above
+
+        mesh = mesh_of(geometry, self.error)
+        if not self.side_files:
+            raise NoMeshError("name a file for the result with -o, and a mesh is written beside it")
         # Named by their content, equal shapes share a mesh, no robot writes over that of another,
         # and a mesh that somebody edited is no longer what its name says.
+        data = mesh.obj()
         name = f"{kind}_{digest_of(data)}.obj"
-        if name not in self._written:
-            if len(self._written) >= _MOST:
-                raise NoMeshError(f"a result has no more than {_MOST} such meshes")
-            from twinform.passes.mesh_jobs.mesh_files import MARK  # noqa: PLC0415 - see above
-
-            self._written.add(name)
-            self.keeper.sink.side_files.append(SideFile(f"{FOLDER}/{name}", data, MARK.encode()))
-        return name
+        self.keeper.sink.side_files.append(SideFile(f"{FOLDER}/{name}", data, MARK.encode()))
+        off = f"at most {format_length(mesh.error)} off and inside of it" if mesh.error else "with the same surface"
+        return _WrittenMesh(name, len(data), f"{len(mesh.faces)} triangles, {off}")
 
 
 def digest_of(data: bytes) -> str:

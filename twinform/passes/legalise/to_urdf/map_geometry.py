@@ -51,13 +51,21 @@ class MapGeometry(ToUrdfPass):
     name: ClassVar[str] = "map-geometry"
     urdf_version: UrdfVersion = "1.0"
     shape_error: float | None = None
+    mesh_prefix: str | None = None
     side_files: bool = True
 
     def run_model(self, model: Model, keeper: UrdfKeeper) -> Model:
         """The model with shapes of URDF alone."""
         sayable = frozenset(urdf_fields(self.urdf_version, "geometry")["shape"] or ())
         target = f"URDF {self.urdf_version}"
-        replacer = ShapeReplacer(keeper, target, lambda kind: kind not in sayable, self.shape_error, self.side_files)
+        replacer = ShapeReplacer(
+            keeper,
+            target,
+            lambda kind: kind not in sayable,
+            self.shape_error,
+            self.mesh_prefix,
+            self.side_files,
+        )
         links = tuple(_map_link(link, sayable, keeper, replacer) for link in model.links)
         return replace_fields(model, links=links)
 

@@ -92,6 +92,7 @@ def to_urdf(
             carriers=carriers,
             urdf_version=words,
             shape_error=requested.shape_error,
+            mesh_prefix=requested.mesh_prefix,
             side_files=requested.side_files,
         ),
         ShareVisuals.unchecked(carriers=carriers, urdf_version=words),
