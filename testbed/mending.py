@@ -222,7 +222,9 @@ def _texts(finding: Finding, written: str) -> Iterator[str]:
     """Yield what may be written instead: suggestions, the values that are expected, and numbers that fit."""
     help_, expected = finding["help"] or "", finding["expected"] or ""
     if "did you mean" in help_:
-        yield from ("".join(each) for each in _QUOTED.findall(help_))
+        suggested = ["".join(each) for each in _QUOTED.findall(help_)]
+        yield from suggested
+        yield from (f"{written.rpartition('/')[0]}/{each}" for each in suggested if "/" in written)
     if expected.startswith(("one of ", "true or false")):
         yield from re.split(r", | or ", expected.removeprefix("one of "))
     numbers = [float(each) for each in _NUMBER.findall(written)]

@@ -76,5 +76,5 @@ def test_a_name_of_none_is_refused(name: str, why: str) -> None:
 
 def test_without_the_package_it_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "robot_descriptions", None)
-    with pytest.raises(ModuleNotFoundError, match=r"twinform\[descriptions\]"):
+    with pytest.raises(ModuleNotFoundError, match=r"\[descriptions\]"):
         twinform.load_description("ur5e_description")

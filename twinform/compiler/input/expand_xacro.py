@@ -31,6 +31,7 @@ from twinform.compiler.input.xacro_needs import (
     report_missing_packages,
     shown_message,
     shown_name,
+    suggest_file,
 )
 from twinform.compiler.observing import note_failure, note_variable
 from twinform.compiler.resolve_uris import SearchPath, UriError
@@ -130,7 +131,7 @@ def _report_failure(outcome: Mapping[str, Any], path: Path, load_options: LoadOp
     column = int(found[1]) + 1 if found else 0
     unknown = outcome.get("unknown")
     meant = nearest_name(unknown["name"], unknown["known"]) if unknown else None
-    advice = _advice(outcome, meant) or outcome.get("help")
+    advice = _advice(outcome, meant) or outcome.get("help") or suggest_file(outcome["error"], path, load_options)
     where = Location(shown_name(file, sink.file), line, "", column)
     message = shown_message(outcome["error"], sink.file)
     if not report_empty_arguments(message, path, where, load_options, sink):

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 from twinform.compiler.input.include_graph import IncludeGraph
 from twinform.compiler.input.load_options import LoadOptions
-from twinform.compiler.resolve_uris import UriError
+from twinform.compiler.resolve_uris import UriError, exists
 from twinform.diagnostics import DiagnosticSink, Location, did_you_mean, rules
 from twinform.file_access import Readable, package_around
 
@@ -130,6 +130,21 @@ def _defined_arguments(path: Path, load_options: LoadOptions) -> set[str]:
     return {name for _, each in closure for name in each.arguments}
 
 
+def suggest_file(error: str, path: Path, load_options: LoadOptions) -> str | None:
+    """Return the sentence that suggests a file for one that cannot be read, in its folder and with its suffix."""
+    missing, search = Path(_path_read(error)), load_options.search
+    # a file from elsewhere must learn of no names but those around it
+    if not missing.suffix or exists(missing) or not search.readable(path).allows(missing.parent):
+        return None
+    names = search.index.listing(missing.parent).by_suffix.get(missing.suffix.lower(), ())
+    return did_you_mean(missing.name, names)
+
+
+def _path_read(error: str) -> str:
+    """Return the path in a message about a file that cannot be read; empty for other messages."""
+    return error.removeprefix("cannot read '").partition("'")[0] if error.startswith("cannot read '") else ""
+
+
 def report_empty_arguments(
     error: str, path: Path, where: Location, load_options: LoadOptions, sink: DiagnosticSink
 ) -> bool:
@@ -139,8 +154,8 @@ def report_empty_arguments(
     """
     defaults, _ = _arguments_of(path, load_options)
     names = [name for name, default in defaults.items() if not default and name not in load_options.arguments]
-    path_read = error.removeprefix("cannot read '").partition("'")[0]
-    if not names or path_read == error or not ("//" in path_read or path_read.endswith("/")):
+    path_read = _path_read(error)
+    if not names or not ("//" in path_read or path_read.endswith("/")):
         return False
     shown, verb = ", ".join(map(repr, names)), "is" if len(names) == 1 else "are"
     message = f"{shown} {verb} empty unless passed, and a path lacks a part: {error}"

@@ -133,6 +133,20 @@ def test_messages_of_the_file_are_reported_at_their_places(tmp_path: Path) -> No
     assert (message.message, message.location.line) == ("hello", 3)
 
 
+@pytest.mark.parametrize(("name", "meant"), [("parts/wheels.xacro", "wheel.xacro"), ("parts/sensor.xacro", None)])
+def test_a_file_with_a_name_like_one_that_is_included_is_suggested(
+    name: str, meant: str | None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "parts").mkdir()
+    (tmp_path / "parts/wheel.xacro").write_text(WHEEL)
+    (tmp_path / "r.urdf.xacro").write_text(f'<robot {NAMESPACE} name="r"><xacro:include filename="{name}"/></robot>')
+    monkeypatch.chdir(tmp_path)
+    for path in ("r.urdf.xacro", str(tmp_path / "r.urdf.xacro")):
+        (found,) = twinform.check(path).diagnostics
+        assert "No such file" in found.message
+        assert found.help == (meant and f"did you mean {meant!r}?")
+
+
 def test_printing_and_reading_do_not_disturb_the_conversation(tmp_path: Path) -> None:
     path = _write(tmp_path, "${xacro.message('[1]')}${xacro.load_yaml('/dev/stdin')}")
     message, error = twinform.check(path).diagnostics
