@@ -114,6 +114,7 @@ wheel: $(SYNCED) # build the sdist and from it the wheel, which has to be the wh
 	$(PYTHON) -m venv .wheel-venv
 	.wheel-venv/bin/python -m pip install --quiet --disable-pip-version-check dist/*.whl
 	.wheel-venv/bin/twinform check examples/rover.urdf
+	test -f "$$(.wheel-venv/bin/twinform --cmake-dir)/twinformConfig.cmake"
 
 # mcp needs newer packages than we do
 floors: OLD := dask,descriptions,lsp,meshes,progress,testing,thumbnails,usd,view,watch
