@@ -19,7 +19,6 @@ from twinform.compiler.usd.build_document import build_document
 from twinform.compiler.usd.stage import Stage, stage_of
 from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, Location, Rule, rules
-from twinform.file_access import OutsideError
 from twinform.ir import Document
 from twinform.passes.mesh_jobs.job import MeshJob, MeshResult
 
@@ -146,19 +145,24 @@ class _Layers:
         """Return the number of the layer that another one names; None, with a finding, for what cannot be read."""
         try:
             there, content = self._content(place, asset)
-        except (UriError, OutsideError) as error:
-            rule = error.rule if isinstance(error, UriError) else rules.URI_LEAVES_FOLDER
-            where = Location(str(place) or self.sink.file, _line_of(self.originals[number], asset))
-            self.sink.report(rule, f"the layer names {asset!r}: {error}", where, help=error.help)
-            return None
-        return self.numbers[there] if there in self.numbers else self._add(there, content)
+        except UriError as error:
+            rule, why, hint = error.rule, str(error), error.help
+        except (OSError, ValueError) as error:
+            rule, hint = rules.UNREADABLE_FILE, None
+            why = str((isinstance(error, OSError) and error.strerror) or error)
+        else:
+            return self.numbers[there] if there in self.numbers else self._add(there, content)
+        where = Location(str(place) or self.sink.file, _line_of(self.originals[number], asset))
+        self.sink.report(rule, f"the layer names {asset!r}: {why}", where, help=hint)
+        return None
 
     def _content(self, place: _Place, asset: str) -> tuple[_Place, bytes]:
         """Find the layer that another one names, and read it.
 
         Raises:
-            UriError: it is nowhere.
-            OutsideError: it must not be read.
+            UriError: it is nowhere, or must not be read.
+            OSError: it cannot be read.
+            ValueError: no file has such a name.
         """
         file, _, inner = asset.partition("[")
         if place.member:  # a package holds all that is in it

@@ -1,1 +1,1 @@
-"""Jobs on mesh files, done in a confined child process: the messages, the process, and the geometry."""
+"""Jobs on mesh files and USD, done in a confined child process: the messages, the process, and the geometry."""

@@ -1,5 +1,6 @@
 """USD files as stages of layers: what they name is read by the rules for files, and what is broken is reported."""
 
+import os
 import zipfile
 from pathlib import Path
 
@@ -124,6 +125,15 @@ def test_nothing_else_is_looked_up(tmp_path: Path, asset: str) -> None:
         "unreadable-file",
         "no-links",
     }
+
+
+def test_a_folder_and_a_pipe_are_no_layers(tmp_path: Path) -> None:
+    (tmp_path / "folder.usda").mkdir()
+    os.mkfifo(tmp_path / "pipe.usda")
+    for name in ("folder.usda", "pipe.usda"):
+        (found,) = refused(_project(tmp_path, _referring(f"./{name}")))
+        assert found.rule.name == "unreadable-file"
+        assert f"the layer names './{name}': " in found.message
 
 
 def test_clips_and_variants_open_no_file(tmp_path: Path) -> None:
