@@ -1,10 +1,10 @@
 """What do converters to USD lose, by `diff`, and does `diff` find what is planted in their stages?"""
 
 import re
-from collections import Counter, defaultdict
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
-from itertools import chain, islice
+from itertools import islice
 from pathlib import Path
 
 import twinform
@@ -16,11 +16,12 @@ from testbed.engines.readers.meshless import without_meshes
 from testbed.markdown import listing, subsection, table
 from testbed.output_files import OUT, kept
 from testbed.usd.converters import CONVERTERS, MISSING, NEWEST, Converter, RefusedError, available
-from testbed.usd.losses import Loss, flat, losses
-from twinform.compiler.compare import Comparison, Difference, DifferenceSeverity
+from testbed.usd.losses import flat, losses
+from twinform.compiler.compare import Difference, DifferenceSeverity
 
 _ROBOTS = 20
-_SEEDED = 200
+_PLANTED = 10
+"""Losses in each robot."""
 _SECONDS = 900
 _FEWEST_JOINTS = 4
 _ABOUT = """\
@@ -34,8 +35,9 @@ names what is not in the stage as it is in the file. mujoco-usd-converter is giv
 the URDF, with links kept apart that fixed joints connect. Carried is what stands only in attributes of `urdf:`, which
 no engine reads.
 
-Losses are planted in stages of urdf-usd-converter: one change of one prim each. One is found if `diff` says something
-of this part, or of the link that it is in or moves, that it did not say of the stage before."""
+Ten losses are planted in each robot's stage of urdf-usd-converter, of kinds that are drawn: one change of one prim
+each. One is found if `diff` says something of this part, or of the link that it is in or moves, that it did not say of
+the stage before."""
 _KINDS = {
     "links": r"link:\+?",
     "joints": r"joint:",
@@ -71,7 +73,7 @@ def measure(sample: Sample) -> Findings:
     """Convert, compare, plant and compare again."""
     files = list(islice(filter(_is_suitable, in_turn(sample.models(Kind.URDF))), _ROBOTS))
     found = sample.outcomes(_judge, files, _failed, seconds=_SECONDS)
-    planted = _even([one.planted for one in found])[:_SEEDED]
+    planted = [each for one in found for each in one.planted]
     missed = [f"{kind} is not found" for kind, is_found in planted if not is_found]
     crashed = [f"{one.name}: {one.refused['all']}" for one in found if "all" in one.refused]
     counts = f"{sum(is_found for _, is_found in planted)} of {len(planted)} planted losses are found."
@@ -123,20 +125,8 @@ def _kind(item: Difference) -> tuple[str, bool]:
 
 def _planted(urdf: Path, text: str) -> list[tuple[str, bool]]:
     before = twinform.diff(urdf, text.encode())
-    return [(loss.kind, loss.found_by(_compare(urdf, loss), before)) for loss in losses(text, seed=1)]
-
-
-def _compare(urdf: Path, loss: Loss) -> Comparison:
-    return twinform.diff(urdf, loss.text.encode())
-
-
-def _even(planted: Sequence[Sequence[tuple[str, bool]]]) -> list[tuple[str, bool]]:
-    """The losses of all robots, in an order in which each part of them has as many kinds as there can be."""
-    by_kind = defaultdict[str, list[bool]](list)
-    for kind, is_found in chain.from_iterable(planted):
-        by_kind[kind].append(is_found)
-    turns = max(map(len, by_kind.values()), default=0)
-    return [(kind, found[turn]) for turn in range(turns) for kind, found in by_kind.items() if turn < len(found)]
+    drawn = islice(losses(text, urdf.parent.name), _PLANTED)
+    return [(loss.kind, loss.found_by(twinform.diff(urdf, loss.text.encode()), before)) for loss in drawn]
 
 
 def _losses_table(found: Sequence[Converted]) -> str:

@@ -35,11 +35,10 @@ def flat(stage: Path) -> str:
     return _usd("Usd").Stage.Open(str(stage)).Flatten().ExportToString()
 
 
-def losses(text: str, seed: int) -> Iterator[Loss]:
-    """Yield a loss of each kind that a stage can have, at a place that is drawn."""
-    for number, kind in enumerate(KINDS):
-        chance = Random(f"{seed}/{number}")
-        found = _plant(text, kind, chance)
+def losses(text: str, seed: str) -> Iterator[Loss]:
+    """Yield a loss of each kind that a stage can have, in an order and at places that are drawn."""
+    for kind in Random(seed).sample(list(KINDS), len(KINDS)):
+        found = _plant(text, kind, Random(f"{seed}/{kind}"))
         if found is not None:
             yield found
 

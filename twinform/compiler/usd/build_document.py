@@ -19,18 +19,20 @@ from twinform.schemas import versions_of
 _ROOT = "PhysicsArticulationRootAPI"
 
 
-def build_document(stage: Stage, known: frozenset[str] | None = None) -> Document:
+def build_document(stage: Stage, known: frozenset[str] | None = None, *, apart: bool = False) -> Document:
     """Build the document of a stage, with a model for each articulation, that with the most links first.
 
-    Transforms are frames where their names are `known`, or where nothing is.
+    Transforms are frames where their names are `known`, or where nothing is. Articulations with known names are one
+    model, such as a robot of two arms, unless they are wanted `apart`.
     """
     joints = [*joints_of(stage)]
     shapes = defaultdict[str, list[Collision]](list)
     for body, collision in collisions_of(stage):
         shapes[body].append(collision)
     groups = sorted(_articulations(stage, joints), key=len, reverse=True)
-    holders = _holders(stage, groups)
     written = WrittenNames(known)
+    groups = groups if apart else _together(stage, groups, written)
+    holders = _holders(stage, groups)
     models = (
         _model(stage, holder, group, joints, shapes, written) for holder, group in zip(holders, groups, strict=True)
     )
@@ -38,13 +40,15 @@ def build_document(stage: Stage, known: frozenset[str] | None = None) -> Documen
 
 
 def _articulations(stage: Stage, joints: Iterable[StageJoint]) -> list[list[str]]:
-    """Group the bodies: all are one model, unless the stage has several roots of articulations."""
+    """Group the bodies by joints and by what they are in: all are one model, unless there are several articulations."""
     bodies = [path for path in stage.prims if path in stage.bodies]
     if sum(prim.has(_ROOT) for prim in stage.prims.values()) <= 1:
         return [bodies] if bodies else []
     group_of = {body: [body] for body in bodies}
-    for joint in joints:
-        one, other = (group_of.get(side.body or "") for side in (joint.parent, joint.child))
+    pairs = [(joint.parent.body, joint.child.body) for joint in joints]
+    pairs += [(stage.body_of(body.rpartition("/")[0]), body) for body in bodies]
+    for pair in pairs:
+        one, other = (group_of.get(body or "") for body in pair)
         if one is not None and other is not None and one is not other:
             large, small = (one, other) if len(one) >= len(other) else (other, one)
             large += small
@@ -52,12 +56,26 @@ def _articulations(stage: Stage, joints: Iterable[StageJoint]) -> list[list[str]
     return [*{id(group): group for group in group_of.values()}.values()]
 
 
+def _together(stage: Stage, groups: list[list[str]], written: WrittenNames) -> list[list[str]]:
+    """Join the groups with known names that no larger one of them has."""
+    joined, rest, seen = list[str](), list[list[str]](), set[str]()
+    for group in groups:
+        names = set(written.of(stage.prims[path] for path in group).values())
+        if names & (written.known or set()) and not names & seen:
+            joined += group
+            seen |= names
+        else:
+            rest.append(group)
+    return [joined, *rest] if joined else groups
+
+
 def _holders(stage: Stage, groups: list[list[str]]) -> list[str]:
-    """Return the path of the prim that each model is called by: the highest that holds no other model."""
-    if len(groups) == 1:
-        return [stage.default or next(iter([*paths_up(groups[0][0])][::-1]))]
+    """Return the path of the prim that each model is called by: the highest that holds no other model, or all."""
+    if len(groups) == 1 and stage.default:
+        return [stage.default]
     counts = Counter(path for group in groups for path in {above for body in group for above in paths_up(body)})
-    return [next(path for path in [*paths_up(group[0])][::-1] if counts[path] == 1) for group in groups]
+    ways = ([*paths_up(group[0])][::-1] for group in groups)
+    return [next((path for path in way if counts[path] == 1), way[0]) for way in ways]
 
 
 def _model(

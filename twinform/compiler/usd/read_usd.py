@@ -51,7 +51,7 @@ def read_usd(
     sink = DiagnosticSink(file=name, strict=load_options.strict)
     try:
         stage = _Layers(load_options, sink).stage(source)
-        document = _choose(build_document(stage, known), model, sink)
+        document = _choose(build_document(stage, known, apart=model is not None), model, sink)
     except UnreadableError:
         text = source if isinstance(source, bytes) else None
         return LoadResult(name, None, tuple(sink.diagnostics), unreadable=True, content=text)

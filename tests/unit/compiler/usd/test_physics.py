@@ -201,7 +201,7 @@ def test_every_planted_loss_is_found() -> None:
     folder = _CASES / "carried_usd_attributes"
     model, text = folder / "a.urdf", (folder / "b.usda").read_text()
     before = twinform.diff(model, text.encode())
-    planted = [loss for seed in range(3) for loss in losses(text, seed)]
+    planted = [loss for seed in range(3) for loss in losses(text, str(seed))]
     assert len({loss.kind for loss in planted}) > len(KINDS) // 2
     missed = [loss.kind for loss in planted if not loss.found_by(twinform.diff(model, loss.text.encode()), before)]
     assert missed == []

@@ -263,6 +263,26 @@ def test_of_several_articulations_the_largest_is_compared_or_the_one_that_is_nam
     assert twinform.diff(URDF, path, model="small").same
 
 
+def test_articulations_with_the_names_of_one_robot_are_that_robot(tmp_path: Path) -> None:
+    arms = _arm("left", 2) + _arm("right", 2).replace('"a"', '"b"').replace("/a>", "/b>").replace("l1", "m1").replace(
+        "j1", "k1"
+    )
+    path = _project(tmp_path, f'{HEAD}def Xform "w"\n{{\n{arms}}}\n')
+    links = "".join(f'<link name="{name}">{_LINK}</link>' for name in ("w", "a", "b", "l1", "m1"))
+    joint = '<joint name="{}" type="fixed"><parent link="{}"/><child link="{}"/></joint>'
+    joints = "".join(
+        joint.format(*each) for each in (("x", "w", "a"), ("y", "w", "b"), ("j1", "a", "l1"), ("k1", "b", "m1"))
+    )
+    found = twinform.diff(f'<robot name="r">{links}{joints}</robot>'.encode(), path)
+    assert {each.name for each in found.differences if not each.aspect} == {"w", "x", "y"}
+
+
+def test_bodies_in_each_other_are_one_robot_whatever_else_is_said_of_them(tmp_path: Path) -> None:
+    root = _BODY.replace("]", ', "PhysicsArticulationRootAPI"]')
+    path = _project(tmp_path, robot(body("a", body("b", head=root), head=root)))
+    assert [each.name for each in twinform.diff(URDF, path).differences] == ["b"]
+
+
 def test_a_library_that_is_not_installed_is_named(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     class Missing:
         def do(self, _: MeshJob) -> MeshResult:
