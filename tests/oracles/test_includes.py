@@ -78,4 +78,5 @@ def test_an_older_version_is_the_same_robot_without_newer_words_of_includes(vers
     for part in ("links", "joints"):
         assert [row["name"] for row in after[part]] == [row["name"] for row in before[part]]
         for ours, theirs in zip(after[part], before[part], strict=True):
-            assert ours["pose"] == pytest.approx(theirs["pose"], abs=1e-9)
+            # libsdformat writes the pose of a merged model with six digits, and reads it again
+            assert ours["pose"] == pytest.approx(theirs["pose"], abs=1e-6)

@@ -196,6 +196,21 @@ def test_an_older_world_is_raised_to_the_version_of_what_it_includes(folder: Pat
     assert twinform.convert(path, to="sdf", expand_includes=True).document.version == "1.9"
 
 
+@pytest.mark.parametrize(("declared", "expected"), [("1.13", "1.12"), (" 1.7 ", "1.7"), ("1.0", "1.12")])
+def test_a_version_that_is_not_known_counts_as_the_one_that_it_is_read_by(
+    folder: Path, declared: str, expected: str
+) -> None:
+    text = f'<sdf version="{declared}"><model name="n"><link name="a"/><link name="b"><pose relative_to="a"/></link></model>'
+    (folder / "new.sdf").write_text(f"{text}</sdf>")
+    old = '<model name="o"><link name="a"/><link name="b"/><joint name="j" type="revolute"><parent>a</parent>'
+    joint = f"{old}<child>b</child><axis><xyz>1 0 0</xyz></axis></joint></model>"
+    made = twinform.convert(
+        _world(folder, f"{joint}<include><uri>new.sdf</uri></include>", "1.4"), to="sdf", expand_includes=True
+    )
+    assert made.document.version == expected
+    assert "<xyz expressed_in=" in made.text
+
+
 def test_a_model_in_a_model_needs_a_version_that_has_them(folder: Path) -> None:
     path = folder / "holder.sdf"
     path.write_text(

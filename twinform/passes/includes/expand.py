@@ -22,7 +22,7 @@ from twinform.passes.includes.merge import (
     report_leftovers,
 )
 from twinform.passes.shared.document_uris import map_uris
-from twinform.schemas import parse_version, versions_of
+from twinform.schemas import print_version, version_read
 
 Holder = TypeVar("Holder", Document, World)
 _NESTED_MODELS = "1.5"
@@ -214,20 +214,20 @@ def relocate_path(path: str | None, folder: str) -> str | None:
 
 
 def newest_version(*versions: str | None) -> str | None:
-    """The newest of some versions; the first one where none of them is known."""
-    known = [version for version in versions if version in versions_of("sdf")]
-    return max(known, key=parse_version, default=versions[0])
+    """The newest of the versions that files are read by; the first one as it is declared where no other is newer."""
+    newest = max(version_read("sdf", version) for version in versions)
+    return versions[0] if version_read("sdf", versions[0]) == newest else print_version(newest)
 
 
 def upgrade_document(document: Document, version: str | None, sink: DiagnosticSink, *, carriers: bool) -> Document:
     """The document in the syntax of a version that is not older than its own."""
-    known = versions_of("sdf")
-    if document.version == version or document.version not in known or version not in known:
+    before, after = version_read("sdf", document.version), version_read("sdf", version)
+    if before >= after:
         return document
     from twinform.passes.sdf_versions import raise_for_merging  # noqa: PLC0415 - few files need all the steps
 
     own = DiagnosticSink(document.location.file or sink.file, sink.strict, origins=sink.origins)
-    for step in raise_for_merging(document.version, version, carriers=carriers):
+    for step in raise_for_merging(print_version(before), print_version(after), carriers=carriers):
         document = step.run(document, own)
     # A file that is included a hundred times is reported once.
     sink.extend_new(own.diagnostics)

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from twinform.ir import Document, Include, bits_of, census_of
 from twinform.ir.scopes import nested_includes, outer_models
-from twinform.schemas import Version, parse_version, versions_of
+from twinform.schemas import Version, parse_version, version_read
 
 _PLACEMENT_FRAMES = (1, 8)
 _MERGING = (1, 9)
@@ -20,7 +20,7 @@ def newer_includes(document: Document, version: str) -> frozenset[int]:
     if not census_of(document) & bits_of(Include):
         return frozenset()
     target = parse_version(version)
-    own = parse_version(document.version if document.version in versions_of("sdf") else versions_of("sdf")[-1])
+    own = version_read("sdf", document.version)
     return frozenset(id(include) for include, since in _with_versions(document) if target < min(since, own))
 
 
