@@ -10,8 +10,9 @@ from twinform.ir import Document, Format, Link, replace_fields, rewrite
 from twinform.ir.defaults import sizes
 from twinform.ir.geometry import Box, Capsule, Cylinder, Mesh, Sphere
 from twinform.ir.visual import Collision, Visual
+from twinform.passes.carriers.annotations import without_annotation
 from twinform.passes.framework.pass_base import Pass
-from twinform.passes.shared.replaced_shapes import AnyPart, middle_of_capsule, with_ends
+from twinform.passes.shared.replaced_shapes import CAPSULE, AnyPart, ends_of_capsule, middle_of_capsule
 
 _KNOWN = (Box, Cylinder, Sphere, Mesh)
 
@@ -61,7 +62,9 @@ def _tidy_shape(link: Link, part: AnyPart, names: set[str], sink: DiagnosticSink
     elif isinstance(shape, Capsule):
         message = f"a capsule of link {link.name!r} becomes a cylinder and two spheres"
         sink.report(REPLACED_SHAPE, message, part.location)
-        yield from with_ends(middle_of_capsule(part, shape), names, annotated=False)
+        middle = middle_of_capsule(part, shape)
+        yield without_annotation(middle, CAPSULE)
+        yield from ends_of_capsule(middle, names)
     elif geometry.opaque:
         message = f"what is beside the shape of a {kind} of link {link.name!r} is left out"
         sink.report(REPLACED_SHAPE, message, part.location)

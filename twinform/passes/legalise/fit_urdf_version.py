@@ -200,7 +200,5 @@ def _without_capsules(keeper: Keeper, link: Link) -> Link:
 
 
 def _split(link: Link, parts: tuple[AnyPart, ...], keeper: Keeper) -> tuple[AnyPart, ...]:
-    taken = {part.name for part in parts if part.name}
     replacer = ShapeReplacer(keeper, "URDF 1.0", lambda kind: kind == "capsule", None, None, side_files=False)
-    replaced = (replacer.replace(part, link.name) for part in parts)
-    return tuple(made for part in replaced for made in with_ends(part, taken, annotated=keeper.carriers))
+    return with_ends([replacer.replace(part, link.name) for part in parts], annotated=keeper.carriers)[0]

@@ -5,13 +5,34 @@ from collections.abc import Iterator, Sequence
 from typing import ClassVar
 
 from twinform.diagnostics import DiagnosticSink, Fate, rules
-from twinform.ir import Capsule, Collision, Cylinder, Document, Link, Node, Pose, Sphere, Visual, rewrite
+from twinform.ir import (
+    Capsule,
+    Collision,
+    Cylinder,
+    Document,
+    Link,
+    Model,
+    Node,
+    Pose,
+    Sphere,
+    Visual,
+    replace_fields,
+    rewrite,
+)
 from twinform.ir.defaults import sizes
 from twinform.ir.transform import Transform
 from twinform.passes.carriers.annotations import find_annotation, without_annotation
 from twinform.passes.carriers.carriers import is_ours
 from twinform.passes.framework.pass_base import Pass
-from twinform.passes.shared.replaced_shapes import CAPSULE, CAPSULE_END, REPLACED, AnyPart, end_poses
+from twinform.passes.shared.replaced_shapes import (
+    CAPSULE,
+    CAPSULE_END,
+    REPLACED,
+    AnyPart,
+    end_poses,
+    map_sensors,
+    map_touched,
+)
 
 _SAME = 1e-9
 """How far ends may be from where they were put, in parts of the size and the distance of a capsule."""
@@ -36,12 +57,22 @@ class FoldCapsules(Pass):
 
 def fold_capsules(document: Document, sink: DiagnosticSink) -> Document:
     """The document with a capsule in place of its parts, where these still make one."""
+    return rewrite(document, Model, lambda model: _fold_model(model, sink), having=REPLACED)
 
-    def fold(link: Link) -> Link:
+
+def _fold_model(model: Model, sink: DiagnosticSink) -> Model:
+    links: list[Link] = []
+    gone: dict[str | None, dict[str, tuple[()]]] = {}
+    for link in model.links:
         visuals, collisions = tuple(_fold_parts(link.visuals, sink)), tuple(_fold_parts(link.collisions, sink))
-        return link.copy(visuals=visuals, collisions=collisions)
-
-    return rewrite(document, Link, fold, having=REPLACED)
+        if len(collisions) < len(link.collisions):
+            kept = {each.name for each in collisions}
+            gone[link.name] = {each.name or "": () for each in link.collisions if each.name not in kept}
+        folded = replace_fields(link, visuals=visuals, collisions=collisions)
+        links.append(map_sensors(folded, gone.get(link.name, {})))
+    # A contact sensor names the capsule, which has the name of its middle.
+    extensions = tuple(map_touched(each, gone.get(each.reference, {})) for each in model.extensions)
+    return replace_fields(model, links=tuple(links), extensions=extensions)
 
 
 def _fold_parts(parts: Sequence[AnyPart], sink: DiagnosticSink) -> Iterator[AnyPart]:

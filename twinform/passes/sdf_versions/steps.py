@@ -76,6 +76,7 @@ def backward(new: Version, old: Version, requested: Requested | None = None) -> 
     yield from _models_back(changes, print_version(old), print_version(new), carriers=carriers)
     yield from _values_back(changes, print_version(old), carriers=carriers)
     if requested is not None:  # after the inertias, which may have to be computed from the shapes
+        yield kinds.FoldCapsules.unchecked()
         yield kinds.ReplaceShapes.unchecked(
             version=print_version(old),
             carriers=carriers,

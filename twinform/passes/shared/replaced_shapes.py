@@ -7,19 +7,19 @@ Annotations say which they are, so that the reverse conversion folds them back:
     <tf:shape instead_of="M.obj">      the geometry that the mesh of this file stands for
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import field
 from typing import NamedTuple, TypeVar
 
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Fate, SideFile, rules
-from twinform.ir import Collision, Node, Pose, Visual, count_parts, replace_fields
+from twinform.ir import Collision, Element, GazeboExtension, Link, Node, Pose, Visual, count_parts, replace_fields
 from twinform.ir.defaults import sizes
 from twinform.ir.geometry import Capsule, Cylinder, Geometry, Mesh, Sphere
 from twinform.ir.transform import Transform
 from twinform.passes.carriers.annotations import find_annotation, with_annotation, without_annotation
 from twinform.passes.carriers.carriers import Keeper, bits_of_ours, carry, is_ours
-from twinform.passes.shared.nodes import piece, reserve_name
+from twinform.passes.shared.nodes import map_elements, piece, reserve_name
 
 AnyPart = TypeVar("AnyPart", Visual, Collision)
 CAPSULE = "capsule"
@@ -150,12 +150,22 @@ def digest_of(data: bytes) -> str:
     return hashlib.sha256(data).hexdigest()[:_DIGITS]
 
 
-def with_ends(part: AnyPart, taken: set[str], *, annotated: bool) -> Iterator[AnyPart]:
-    """Yield a part and, behind the middle of a capsule, the spheres at its ends; `taken` are names, and get theirs."""
-    is_middle = find_annotation(part, CAPSULE) is not None
-    yield part if annotated else without_annotation(part, CAPSULE)
-    for end in ends_of_capsule(part, taken) if is_middle else ():
-        yield with_annotation(end, CAPSULE_END, end.name) if annotated else end
+def with_ends(parts: Sequence[AnyPart], *, annotated: bool) -> tuple[tuple[AnyPart, ...], dict[str, tuple[str, ...]]]:
+    """The parts with spheres behind the middle of each capsule, and the names of the parts of each capsule by its name.
+
+    Not `annotated`, none says any more what it is of.
+    """
+    taken = {part.name for part in parts if part.name}
+    made: list[AnyPart] = []
+    names: dict[str, tuple[str, ...]] = {}
+    for part in parts:
+        is_middle = find_annotation(part, CAPSULE) is not None
+        made.append(part if annotated else without_annotation(part, CAPSULE))
+        ends = [*ends_of_capsule(part, taken)] if is_middle else []
+        made += [with_annotation(end, CAPSULE_END, end.name) if annotated else end for end in ends]
+        if ends and part.name:
+            names[part.name] = (part.name, *(end.name or "" for end in ends))
+    return tuple(made), names
 
 
 def middle_of_capsule(part: AnyPart, shape: Capsule) -> AnyPart:
@@ -182,3 +192,32 @@ def end_poses(pose: Pose | None, length: float) -> Iterator[Pose]:
     frame = pose.relative_to if pose else None
     for height in (length / 2, -length / 2):
         yield Transform.from_pose(pose).compose(Transform((0.0, 0.0, height))).to_pose(frame)
+
+
+def map_touched(extension: GazeboExtension, names: Mapping[str, Sequence[str]]) -> GazeboExtension:
+    """The extension with the names of collisions in its contact sensors replaced, each by any number of others."""
+    if not names:
+        return extension
+    return replace_fields(extension, content=tuple(_map_touched(each, names, "") for each in extension.content))
+
+
+def map_sensors(link: Link, names: Mapping[str, Sequence[str]]) -> Link:
+    """The link with the names of its collisions in its contact sensors replaced, each by any number of others."""
+    if not names:
+        return link
+    sensors = (
+        replace_fields(each, opaque=map_elements(each.opaque, lambda one: _map_touched(one, names, "/sensor")))
+        for each in link.sensors
+    )
+    return replace_fields(link, sensors=tuple(sensors))
+
+
+def _map_touched(element: Element, names: Mapping[str, Sequence[str]], inside: str) -> Element:
+    path = f"{inside}/{element.name}"
+    if not "/sensor/contact".startswith(path):
+        return element
+    children: list[Element] = []
+    for child in element.children:
+        named = names.get((child.text or "").strip()) if child.name == "collision" and inside else None
+        children += [_map_touched(child, names, path)] if named is None else [child.copy(text=each) for each in named]
+    return replace_fields(element, children=tuple(children))

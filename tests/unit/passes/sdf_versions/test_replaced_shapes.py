@@ -1,5 +1,6 @@
 """What stands for a shape that the target lacks: what is written, what folds back, and that edits win."""
 
+import re
 from pathlib import Path
 
 import pytest
@@ -194,6 +195,38 @@ def test_a_capsule_is_what_its_parts_are_to_every_reader(tmp_path: Path) -> None
     assert twinform.diff(model, tmp_path / "a.urdf").same
     (tmp_path / "a.urdf").write_text(urdf(COLLISION).text.replace('length="0.5"', 'length="0.6"'), encoding="utf-8")
     assert not twinform.diff(model, tmp_path / "a.urdf").same
+
+
+SENSED = (
+    COLLISION
+    + "<collision name='box'><geometry><box><size>1 1 1</size></box></geometry></collision>"
+    + "<sensor name='s' type='contact'><contact><collision>c</collision><collision>box</collision></contact></sensor>"
+)
+
+
+def test_a_contact_sensor_feels_the_ends_of_a_capsule_too() -> None:
+    made = urdf(SENSED)
+    # parser_urdf.cc counts all collisions of a link, those at the ends too
+    lumped = ["c_collision", "c_end_collision_1", "c_end_1_collision_2", "box_collision_3"]
+    assert [f"a_fixed_joint_lump__{each}" for each in lumped] == sensed(made.text)
+    assert sensed(twinform.convert(made.text.encode(), to="sdf").text) == ["c", "box"]
+    older = twinform.convert(TEXT.format(SENSED).encode(), to="sdf", sdf_version="1.7")
+    assert sensed(older.text) == ["c", "c_end", "c_end_1", "box"]
+    assert sensed(twinform.convert(older.text.encode(), to="sdf", sdf_version="1.11").text) == ["c", "box"]
+
+
+def sensed(text: str) -> list[str]:
+    return re.findall(r"<collision>(.*)</collision>", text)
+
+
+def test_names_that_gazebo_keeps_are_those_of_the_ends_too() -> None:
+    surface = "<surface><friction><ode><mu>0.3</mu></ode></friction></surface>"
+    made = urdf(COLLISION.replace("</collision>", f"{surface}</collision>"))
+    names = [each.name for each in twinform.loads(made.text).models[0].links[0].collisions]
+    assert names == ["a_c", "a_c_end", "a_c_end_1"]
+    assert home(made.text) == (["capsule"], False)
+    back = twinform.convert(made.text.encode(), to="sdf").document.models[0].links[0].collisions
+    assert [each.name for each in back] == ["c"]
 
 
 def test_ends_have_names_that_are_free() -> None:

@@ -64,13 +64,14 @@ def to_sdf(
     before_named_frames = parse_version(version) < _ONE_SCOPE
     return (
         DropMisplaced.unchecked(),
+        # The numbers in names of libsdformat count all shapes, those at the ends of capsules too.
+        RestoreShapeNames.unchecked(),
+        FollowLumpedNames.unchecked(carriers=carriers),
         FoldCapsules.unchecked(),
         ReadDrakeJoints.unchecked(carriers=carriers),
         CarryUrdf.unchecked(carriers=carriers),  # before anything of SDF comes in
         FoldShapeMeshes.unchecked(),
         CloseLoops.unchecked(carriers=carriers),
-        RestoreShapeNames.unchecked(),
-        FollowLumpedNames.unchecked(carriers=carriers),
         ShareInertias.unchecked(carriers=carriers),
         NoteLumping.unchecked(),
         FoldGazebo.unchecked(carriers=carriers),

@@ -6,8 +6,10 @@ from typing import ClassVar, NamedTuple
 from twinform.diagnostics import Location
 from twinform.diagnostics.rules import GAZEBO_SHAPE_NAME
 from twinform.ir import Model
+from twinform.passes.carriers.annotations import find_annotation, with_annotation, without_annotation
 from twinform.passes.legalise.changed_names import NAME
 from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
+from twinform.passes.shared.replaced_shapes import CAPSULE_END
 from twinform.passes.structure.tag_shapes import AnyShape, describe_renaming, name_shapes_for_gazebo
 
 
@@ -26,6 +28,8 @@ class NameShapesForGazebo(ToUrdfPass):
         """The model by names that Gazebo keeps."""
 
         def rename(shape: AnyShape, name: str, kind: str) -> AnyShape:
+            if find_annotation(shape, CAPSULE_END) is not None:  # which SDF does not have
+                return with_annotation(without_annotation(shape, CAPSULE_END), CAPSULE_END, name).copy(name=name)
             keeper.account(GAZEBO_SHAPE_NAME, describe_renaming(shape, name, kind), shape.location.at("@name"), 1)
             kept: AnyShape = keeper.annotate(shape, NAME, text=shape.name, attributes={"instead_of": name})
             return kept.copy(name=name)

@@ -101,8 +101,8 @@ def to_urdf(
         NameJointsApart.unchecked(carriers=carriers),  # before <gazebo> names them
         ExtendGazebo.unchecked(carriers=carriers),
         CarryTheRest.unchecked(carriers=carriers, urdf_version=urdf_version, words=words),
-        NameShapesForGazebo.unchecked(carriers=carriers),
         AddCapsuleEnds.unchecked(carriers=carriers),
+        NameShapesForGazebo.unchecked(carriers=carriers),
         RestoreMaterials.unchecked(),
         RestoreShapes.unchecked(),
         RestoreNames.unchecked(to=Format.URDF),
