@@ -40,7 +40,10 @@ UNTOLD = {
     "mujoco": {
         "axis: xyz: '0 0 1e300'", "material: nan", "robot: Robot",
     },
-    "newton": {"material: color and texture", "material: global, with a texture"},
+    "newton": {
+        "material: texture", "material: color and texture", "material: texture by package",
+        "material: global, with a texture", "material: global with the color in a visual with a texture",
+    },
     "usd": {
         "name: robot: a back slash", "material: texture", "material: color and texture", "material: texture by package",
         "material: global, with a texture",

@@ -87,6 +87,7 @@ RULES_OF_FACTS: Mapping[str, tuple[str, ...]] = {
     "second-tree": ("several-roots",),
     "lone-link": ("several-roots",),
     "circular-mimic": ("unknown-leader",),
+    "unlike-mimic": ("unknown-leader",),
     "no-root": _LOOP,
     "no-root-of-joints": _LOOP,
     "two-parents": _LOOP,

@@ -101,7 +101,7 @@ def reads(consumer: str) -> Reads:
             base = reads(columns[1])
             parser, demands = parser or base.parser, [*base.demands, *demands]
         elif columns[0] == "without":
-            demands = [each for each in demands if [each.item, each.effect] != columns[1:]]
+            demands = _without(demands, *columns[1:])
         else:
             demands.append(_parse_demand(columns, versions))
     return Reads(parser, tuple(demands), skips)
@@ -114,6 +114,18 @@ def demands_by_release(name: str) -> dict[Demand, tuple[Release, ...]]:
         for demand in reads(profile.reads).demands if profile.reads else ():
             found.setdefault(demand, []).append(profile.release)
     return {demand: tuple(releases) for demand, releases in found.items()}
+
+
+def _without(demands: list[Demand], item: str = "", effect: str = "") -> list[Demand]:
+    """The demands but for those that say this of the item.
+
+    Raises:
+        ValueError: none does.
+    """
+    kept = [each for each in demands if (each.item, each.effect) != (item, effect)]
+    if len(kept) == len(demands):
+        raise ValueError(f"there is nothing about {item!r} with the effect {effect!r} to leave out")
+    return kept
 
 
 @cache

@@ -252,6 +252,17 @@ def _links_without_inertial(root: RawNode) -> Fact:
             yield link, f"link {link.name!r} has no <inertial>"
 
 
+def _unlike_mimics(root: RawNode) -> Fact:
+    """Joints that follow one with other degrees of freedom, or where one of the two has none of its own."""
+    freedoms = {joint.name: "one" if joint.type in ONE_AXIS else joint.type for joint in root.all("joint")}
+    for joint in root.all("joint"):
+        leader = joint.value("mimic", "joint")
+        if leader is None or leader not in freedoms:
+            continue
+        if freedoms[joint.name] not in {"one", "planar"} or freedoms[joint.name] != freedoms[leader]:
+            yield joint, f"joint {joint.name!r} follows {leader!r}, which moves otherwise"
+
+
 def _links_with_shapes_alone(root: RawNode) -> Fact:
     for link in root.all("link"):
         inertial = link.first("inertial")
@@ -314,6 +325,7 @@ FACTS: FactTable = {
     "lone-link": _lone_links,
     "circular-mimic": _circular_mimics,
     "weightless-link": _links_without_inertial,
+    "unlike-mimic": _unlike_mimics,
     "shapes-alone": _links_with_shapes_alone,
     "foreign-joint": _foreign_joints,
     **dynamics_facts.FACTS,
