@@ -10,7 +10,7 @@ import twinform
 from tests.profile import examples
 from twinform.compiler.output.emitting import emit
 from twinform.diagnostics import DiagnosticSink
-from twinform.ir import Document, Element, Opaque, Pose
+from twinform.ir import Axis, Document, Element, Joint, Opaque, Pose
 from twinform.ir.foreign_joints import LOOP_FORMS, EndForm
 from twinform.ir.frames import FrameGraph
 from twinform.ir.joint import JointType
@@ -95,3 +95,29 @@ def test_loops_come_back_from_older_versions(version: str) -> None:
         assert_round_trip(robot, via="sdf", sdf_version=version)
 
     comes_back()
+
+
+@st.composite
+def robots_with_second_parents(draw: st.DrawFn) -> Document:
+    """A robot with joints that have a link where another joint has it."""
+    robot = draw(strategies.robots(min_links=3, max_links=5, joint_types=("revolute", "prismatic", "fixed")))
+    model = robot.models[0]
+    graph, joints = FrameGraph(model), list(model.joints)
+    for number in range(draw(st.integers(1, 2))):
+        parent, child = sorted(draw(st.permutations(range(len(model.links))))[:2])  # the joints go round in no circle
+        one, other = f"link_{parent}", f"link_{child}"
+        kind: JointType = "fixed" if draw(st.booleans()) else "continuous"
+        placed = graph.pose(other, one).to_pose(one)
+        axis = Axis(xyz=(0.0, 1.0, 0.0)) if kind == "continuous" else None
+        joints.append(Joint(name=f"second_{number}", type=kind, parent=one, child=other, pose=placed, axis=axis))
+    return robot.copy(models=(model.copy(joints=tuple(joints)),))
+
+
+@examples(0.3)
+@given(robots_with_second_parents())
+def test_a_robot_with_second_parents_is_the_same_after_a_round_trip(robot: Document) -> None:
+    text = emit(robot, DiagnosticSink())
+    there = twinform.convert(text.encode(), to="sdf").text
+    back = twinform.convert(there.encode(), to="urdf").text
+    for made in (there, back):
+        assert [each.message for each in twinform.diff(text.encode(), made.encode(), carriers=True).differences] == []

@@ -80,22 +80,27 @@ def closes_loop(part: Opaque) -> bool:
     return part.element is not None and not part.at and usual_word(part.element) in LOOP_FORMS
 
 
+def ends_of(element: Element) -> tuple[str | None, str | None]:
+    """The parent and child that an element of URDF names, which closes a loop or is a joint."""
+    form = LOOP_FORMS.get(usual_word(element))
+    parent, child = (form.parent, form.child) if form else _JOINT_ENDS
+    return _named_link(element, parent), _named_link(element, child)
+
+
 def foreign_joints(model: Model) -> Iterator[ForeignJoint]:
     """Yield the joints of other readers in a robot of URDF."""
     for part in model.opaque:
         word = usual_word(part.element) if part.element and not part.at else ""
         if part.element and (word == DRAKE_JOINT or word in LOOP_FORMS):
-            form = LOOP_FORMS.get(word)
-            parent, child = (form.parent, form.child) if form else _JOINT_ENDS
-            name = part.element.get("name")
+            (parent, child), name = ends_of(part.element), part.element.get("name")
             joint = Joint.unchecked(
                 name=name or "",
                 type=part.element.get("type") or "",  # pyright: ignore[reportArgumentType] - any text may stand there
-                parent=_named_link(part.element, parent),
-                child=_named_link(part.element, child),
+                parent=parent,
+                child=child,
                 source=part.source._replace(step=word, key=name) if part.source else None,
             )
-            yield ForeignJoint(part, word, joint, form)
+            yield ForeignJoint(part, word, joint, LOOP_FORMS.get(word))
 
 
 def _named_link(element: Element, end: EndForm) -> str | None:

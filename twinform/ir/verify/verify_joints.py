@@ -1,7 +1,8 @@
 """Verifies joints: parent and child, axes, limits and mimic, and the kinematic tree that they make."""
 
 import math
-from collections.abc import Iterable, Mapping
+from collections import Counter, defaultdict
+from collections.abc import Iterable, Mapping, Sequence
 from functools import partial
 
 from twinform.diagnostics import DiagnosticSink, Location, Severity, did_you_mean, rules
@@ -186,7 +187,11 @@ def report_loops(joints: Iterable[Joint], sink: DiagnosticSink, severity: Severi
     """Report links with two parents and circles; return the first joint of each child."""
     parents: dict[str, Joint] = {}
     groups = Groups()
-    for joint in joints:
+    listed = list(joints)
+    # A file of URDF with such a loop is refused by most readers, and is a robot of SDF all the same. What goes round in
+    # a circle has no root, and no pass that goes up or down the tree comes to an end.
+    is_robot = severity is None and not _go_round(listed)
+    for joint in listed:
         if joint.child is None:
             continue
         first = parents.setdefault(joint.child, joint)
@@ -194,12 +199,28 @@ def report_loops(joints: Iterable[Joint], sink: DiagnosticSink, severity: Severi
         if first is not joint:
             message = f"link {joint.child!r} is the child of joint {first.name!r} and of joint {joint.name!r}"
             message += ", which closes a loop" if closes else ""
-            related = (first.location,)
-            sink.report(rules.TWO_PARENTS, message, joint.location, related=related, severity=severity)
+            related, refused = (first.location,), is_robot and closes
+            level = Severity.WARNING if refused else severity
+            sink.report(rules.TWO_PARENTS, message, joint.location, related=related, severity=level, refused=refused)
     for joint in _circles(parents):
         message = f"joint {joint.name!r} closes a loop of joints through link {joint.child!r}"
         sink.report(rules.KINEMATIC_LOOP, message, joint.location, severity=severity)
     return parents
+
+
+def _go_round(joints: Sequence[Joint]) -> bool:
+    """Whether some links are each below the next one, by any of their joints."""
+    above = Counter(joint.child for joint in joints)
+    below: defaultdict[str | None, list[str | None]] = defaultdict(list)
+    for joint in joints:
+        below[joint.parent].append(joint.child)
+    waiting = [name for name in below if not above[name]]
+    while waiting:  # the joints below a link that nothing holds any more hold nothing either
+        for child in below.pop(waiting.pop(), ()):
+            above[child] -= 1
+            if not above[child]:
+                waiting.append(child)
+    return any(above.values())
 
 
 def _circles(parents: dict[str, Joint]) -> list[Joint]:

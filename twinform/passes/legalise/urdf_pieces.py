@@ -5,6 +5,7 @@ from collections.abc import Iterator, Mapping
 from functools import cached_property
 
 from twinform.ir import Element, Joint, Link, Mimic, Model, Node, Opaque
+from twinform.ir.foreign_joints import LOOP_FORMS, ends_of, usual_word
 from twinform.ir.verify.verify_joints import useless_leader
 from twinform.passes.shared.gazebo_tags import JOINT_TAGS, LINK_FIELDS, LINK_TAGS, MODEL_TAGS
 from twinform.request_options import UrdfVersion
@@ -149,6 +150,9 @@ def _misfit_of_model(piece: Opaque, standing: Standing) -> str:
         return "it has nothing that URDF understands"
     if element.name == "gazebo":
         return _misfit_of_gazebo(element, standing)
+    if element.name == "joint" or usual_word(element) in LOOP_FORMS:
+        lost = next((name for name in ends_of(element) if name and name not in standing.links), None)
+        return f"there is no link {lost!r}" if lost else ""
     gone = next((name for name in joints_of(element) if name not in standing.named_joints), None)
     return "" if gone is None else f"there is no joint {gone!r}"
 

@@ -62,7 +62,7 @@ def read_loop(foreign: ForeignJoint, name: str, graph: FrameGraph, links: Contai
     placed = graph.pose(parent, child) if parent in links else graph.pose(WORLD, child, kind="world")
     # The end on the parent in the frame of the end on the child, which is that of the joint in SDF.
     offset = other.inverse().compose(placed).compose(one)
-    _require_closed(offset, kind)
+    require_closed(offset, kind)
     offset = Transform.from_pose(offset.to_pose())  # without the noise of composing
     joint = Joint.unchecked(
         name=name,
@@ -147,7 +147,12 @@ def _read_end(element: Element, end: EndForm) -> tuple[Transform, Vector3 | None
     return point, written or None
 
 
-def _require_closed(offset: Transform, kind: JointType) -> None:
+def require_closed(offset: Transform, kind: JointType) -> None:
+    """Require the ends of a loop to be in one place, one being at `offset` from the other.
+
+    Raises:
+        OpenLoopError: they are not.
+    """
     gap = math.hypot(*offset.translation)
     if gap > _APART:
         raise OpenLoopError(f"its ends are {gap:.3g} m apart where all joints are at zero")

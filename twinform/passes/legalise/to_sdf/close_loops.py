@@ -3,14 +3,14 @@
 from typing import ClassVar
 
 from twinform.diagnostics import DiagnosticSink, rules
-from twinform.ir import Format, Joint, Model, Opaque
+from twinform.ir import Format, Joint, Model, Opaque, count_parts
 from twinform.ir.foreign_joints import closes_loop, foreign_joints
 from twinform.ir.frames import FrameError, FrameGraph
 from twinform.ir.groups import Groups
 from twinform.passes.carriers.annotations import came_from
-from twinform.passes.carriers.carriers import Keeper, carry
+from twinform.passes.carriers.carriers import Keeper, carry, to_element
 from twinform.passes.framework.pass_base import ModelPass
-from twinform.passes.shared.loop_elements import OpenLoopError, read_loop
+from twinform.passes.shared.loop_elements import OpenLoopError, read_loop, require_closed
 from twinform.passes.shared.nodes import reserve_name
 
 
@@ -19,7 +19,8 @@ class CloseLoops(ModelPass):
 
     Changes: Isaac's `<loop_joint>`, `<drake:ball_constraint>` and the `<constraint>` proposed for urdfdom become
     joints, which are annotated with what only the element says; those that no joint of SDF is are carried: their ends
-    do not meet where all joints are at zero, or they say more.
+    do not meet where all joints are at zero, or they say more. So is a joint to a second parent that has the link
+    elsewhere than the first one; others are such joints already.
     Never touches: else.
     Diagnostics: `open-loop` for what is carried, or dropped with `carriers` false.
     """
@@ -30,7 +31,10 @@ class CloseLoops(ModelPass):
     def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
         """The model with joints that close loops."""
         loops = [each for each in foreign_joints(model) if each.form is not None]
-        if not loops or sink.has_errors:
+        if sink.has_errors:
+            return model
+        model = _leave_open(model, Keeper(sink, self.carriers))
+        if not loops:
             return model
         annotated = self.carriers and not came_from(model, Format.SDF)
         links = frozenset(link.name for link in model.links)
@@ -52,6 +56,26 @@ class CloseLoops(ModelPass):
         opaque = tuple(part for part in model.opaque if not closes_loop(part))
         model = model.copy(joints=tuple(joints), opaque=opaque)
         return carry(model, left, "urdf") if self.carriers else model
+
+
+def _leave_open(model: Model, keeper: Keeper) -> Model:
+    """The model without the joints that give a link a second parent which has it elsewhere than the first one."""
+    first = {joint.child: joint.name for joint in reversed(model.joints)}
+    if len(first) == len(model.joints):
+        return model
+    graph, kept, left = FrameGraph(model), list[Joint](), list[Opaque]()
+    for joint in model.joints:
+        try:
+            if first[joint.child] != joint.name:
+                require_closed(graph.pose(joint.name, joint.child or "", kind="joint"), "fixed")
+            kept.append(joint)
+        except (OpenLoopError, FrameError) as error:
+            message = f"joint {joint.name!r} closes no loop in SDF: {error}"
+            keeper.sink.report(rules.OPEN_LOOP, message, joint.location, found=joint.name)
+            keeper.account(rules.OPEN_LOOP, message, joint.location, count_parts(joint))
+            left.append(Opaque.unchecked(element=to_element(joint, "joint", "urdf"), source=joint.source))
+    model = model.copy(joints=tuple(kept))
+    return carry(model, left, "urdf") if keeper.carriers else model
 
 
 def _fixed_groups(model: Model) -> Groups:

@@ -1,5 +1,6 @@
 """Converting massless links on fixed joints to frames."""
 
+from collections import Counter
 from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import DiagnosticSink, rules
@@ -34,7 +35,8 @@ class FrameLinks(ModelPass):
     nearest link above that stays a link, and are posed in the link's frame as before. Joints below keep the link's name
     as their parent.
     Never touches: links with mass; a link fixed to the world, which has no link above; one whose joint has a sensor,
-    which would have no place; one on a joint of SDF in a `<gazebo>` element, which may close a circle.
+    which would have no place; one on a joint of SDF in a `<gazebo>` element, which may close a circle; one with two
+    parents.
     Diagnostics: none; ledger entries under `frame-link` for what a frame cannot have.
     """
 
@@ -45,6 +47,7 @@ class FrameLinks(ModelPass):
         """The model without massless links on fixed joints."""
         links = {link.name: link for link in model.links}
         stays = came_from(model, Format.SDF)  # where frames are annotated
+        above = Counter(joint.child for joint in model.joints)
         moved = {
             joint.child: joint
             for joint in model.joints
@@ -53,6 +56,7 @@ class FrameLinks(ModelPass):
             # it would leave another link as the root of every program that asks for it.
             and joint.parent in links
             and joint.child in links
+            and above[joint.child] == 1  # another one would connect what the frame is on to itself
             # A force-torque sensor measures what goes through the joint, and often sits in front of
             # a massless frame with the tool behind it.
             and not joint.sensors

@@ -157,11 +157,14 @@ class BuildTree(ToUrdfPass):
         annotated = [joint for joint in model.joints if find_annotation(joint, EXTENSION)]
         geared = any(joint.type == "gearbox" for joint in model.joints)  # gearboxes know the joints by their ends
         take_in = tree.add if geared else tree.join
-        for joint in model.joints:
+        # Floating ones first: those that were in URDF are in no `<gazebo>`, which has no such joint.
+        for joint in sorted(model.joints, key=lambda joint: joint.type != "floating"):
             if find_annotation(joint, EXTENSION) is None:
                 (kept if joint.type == "gearbox" or take_in(joint) else cut).append(joint.name)
         for joint in annotated:  # what nothing else holds needs it
             (kept if joint.parent != WORLD and tree.add(joint) else extensions).append(joint.name)
+        places = {joint.name: place for place, joint in enumerate(model.joints)}
+        kept.sort(key=places.__getitem__)
         model = _reverse_joints(model, tree.turned, keeper)
         joints = {joint.name: joint for joint in model.joints}
         holding = {joint.child or "": joint for joint in map(joints.__getitem__, kept) if joint.type != "gearbox"}

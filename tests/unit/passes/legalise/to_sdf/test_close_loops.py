@@ -121,3 +121,43 @@ def test_two_equal_loops_are_two_joints() -> None:
     assert [each.name for each in made.document.models[0].joints][-2:] == ["b_c_loop", "b_c_loop_1"]
     back = twinform.convert(made.text.encode(), to="urdf").text
     assert back.count("<drake:ball_constraint>") == 2
+
+
+def test_a_loop_that_was_carried_goes_with_its_link() -> None:
+    sdf = _sdf(_PIN.replace("1 0 0", "5 0 0")).text
+    start = sdf.index('<link name="c"')
+    bare = sdf[:start] + sdf[sdf.index("</link>", start) + len("</link>") :]
+    start = bare.index('<joint name="ac"')
+    bare = bare[:start] + bare[bare.index("</joint>", start) + len("</joint>") :]
+    back = twinform.convert(bare.encode(), to="urdf")
+    assert "<loop_joint" not in back.text
+    assert [each.message for each in back.diagnostics if each.rule.name == "stale-carrier"] == [
+        "<loop_joint> of model 'r' is not restored: there is no link 'c'"
+    ]
+
+
+_SECOND = '<joint name="bc" type="fixed"><parent link="b"/><child link="c"/><origin xyz="{} 0 0"/></joint>'
+
+
+def test_a_second_parent_closes_a_loop_where_both_have_the_link_in_one_place() -> None:
+    made = _sdf(_SECOND.format(1))
+    assert [each.name for each in made.document.models[0].joints] == ["ab", "ac", "bc"]
+    back = twinform.convert(made.text.encode(), to="urdf")
+    assert '<joint name="bc" type="fixed">' in back.text.partition("<gazebo>")[2]
+    assert twinform.diff(_ROBOT.format(_SECOND.format(1)).encode(), back.text.encode(), carriers=True).same
+
+
+def test_a_second_parent_that_has_the_link_elsewhere_is_carried() -> None:
+    text = _ROBOT.format(_SECOND.format(2))
+    made = _sdf(_SECOND.format(2))
+    assert [each.name for each in made.document.models[0].joints] == ["ab", "ac"]
+    back = twinform.convert(made.text.encode(), to="urdf").text
+    assert list(twinform.normal_form(text.encode()).compare(twinform.normal_form(back.encode()))) == []
+
+
+def test_joints_that_go_round_are_no_robot() -> None:
+    loop = '<joint name="ca" type="fixed"><parent link="c"/><child link="b"/></joint>'
+    back = '<joint name="bc" type="fixed"><parent link="b"/><child link="c"/></joint>'
+    with pytest.raises(twinform.CompileError) as refused:
+        _sdf(loop + back)
+    assert {each.rule.name for each in refused.value.diagnostics if each.is_error} == {"two-parents"}
