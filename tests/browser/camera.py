@@ -11,8 +11,8 @@ import numpy as np
 from twinform.ir import Quaternion, Vector3
 from twinform.ir.motion import unit
 from twinform.ir.transform import Transform, cross, minus
-from twinform.view.figure import Figure
-from twinform.view.viewer import FOV, Viewer, viewpoint
+from twinform.view.figure import FOV, Figure, viewpoint
+from twinform.view.viewer import Viewer
 
 Array = Any
 _UP: Vector3 = (0.0, 0.0, 1.0)

@@ -47,7 +47,7 @@ class Figure:
     """A scene, drawn below the node `root` of a viser scene.
 
     `listen` is called with each part that is drawn and its link; `title` says which of two robots this is. `labels` has
-    the texts that explain nodes, by their names.
+    the texts that explain nodes, by their names. The `watchers` are called when joints have moved.
     """
 
     api: Any
@@ -60,6 +60,7 @@ class Figure:
     nodes: dict[str, Handle] = field(default_factory=dict[str, Handle], init=False)
     poses: dict[str, Transform] = field(default_factory=dict[str, Transform], init=False)
     labels: dict[str, str] = field(default_factory=dict[str, str], init=False)
+    watchers: list[Callable[[], None]] = field(default_factory=list[Callable[[], None]], init=False)
     base: Handle = field(init=False)
     kinematics: Kinematics[SceneJoint] = field(init=False)
     _layers: dict[str, list[Handle]] = field(default_factory=dict[str, "list[Handle]"], init=False)
@@ -102,6 +103,8 @@ class Figure:
                 at = placed(pose)
                 self.nodes[name].position, self.nodes[name].wxyz = at["position"], at["wxyz"]
         self.poses = poses
+        for watcher in self.watchers:
+            watcher()
 
     def place(self, offset: Vector3, *, visible: bool) -> None:
         """Move the whole robot, for example beside another one, and show or hide it."""
@@ -222,6 +225,36 @@ class Figure:
             if np.abs(box).max() < _FAR and _width(box) < _GROUND:
                 (flat if _is_plane(shape) else solid).append(box)
         return solid or flat
+
+
+FOV = math.radians(45)
+"""The vertical angle of view of cameras."""
+VIEWS: Mapping[str, Vector3] = {
+    "Corner": (0.85, -1.15, 0.65),
+    "Front": (1.6, 0.0, 0.0),
+    "Side": (0.0, -1.6, 0.0),
+    "Top": (-0.001, 0.0, 1.6),
+}
+"""Where cameras are from the middle of what is shown, in units of its size; robots face x, and z is up."""
+
+
+def viewpoint(figures: Iterable[Figure], view: str = "Corner") -> tuple[Vector3, Vector3]:
+    """Return where a camera sees all of some figures, and the point that it looks at."""
+    every = list(figures)
+    bounds = [figure.bounds() for figure in every]
+    least, greatest = np.min([each for each, _ in bounds], axis=0), np.max([each for _, each in bounds], axis=0)
+    x, y, z = (float(each) for each in (least + greatest) / 2)
+    away = max(figure.size for figure in every)
+    a, b, c = VIEWS[view]
+    return (x + away * a, y + away * b, z + away * c), (x, y, z)
+
+
+def aim(camera: Any, figures: Iterable[Figure], view: str = "Corner") -> None:
+    """Move a camera of viser to where everything is seen."""
+    position, target = viewpoint(figures, view)
+    away = math.dist(position, target)
+    camera.position, camera.look_at, camera.fov = position, target, FOV
+    camera.near, camera.far = away / 100, away * 100
 
 
 def placed(pose: Transform) -> dict[str, Any]:

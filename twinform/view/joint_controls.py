@@ -5,6 +5,7 @@ import math
 import random
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import field
+from itertools import groupby
 from typing import Any, cast
 
 from twinform.compiler.graph.graph import shortened
@@ -51,9 +52,14 @@ class _Movable:
         return self.joint.name, self.number
 
     @property
+    def model(self) -> str:
+        """The models around the joint, in a file with several; empty in one with a single robot."""
+        return self.joint.name.rpartition("::")[0]
+
+    @property
     def label(self) -> str:
-        numbered = self.joint.name if len(self.joint.degrees) == 1 else f"{self.joint.name} ({self.number + 1})"
-        return shortened(numbered)
+        name = self.joint.name.rpartition("::")[2]
+        return shortened(name if len(self.joint.degrees) == 1 else f"{name} ({self.number + 1})")
 
 
 # The sliders are viser's own. `viser.extras.ViserUrdf` adds none, and reads URDF a second time, with yourdfpy; it knows
@@ -67,6 +73,7 @@ class JointControls:
     choices: Choices
     _movable: list[_Movable] = field(default_factory=list[_Movable], init=False)
     _sliders: dict[Key, Any] = field(default_factory=dict[Key, Any], init=False)
+    _rows: list[Any] = field(default_factory=list[Any], init=False)
     _folder: Any = field(default=None, init=False)
     _text: Any = field(default=None, init=False)
 
@@ -134,12 +141,24 @@ class JointControls:
             self.move({each.key: _clamp(choose(each.degree), *slider_range(each.degree)) for each in self._movable})
 
     def _show_sliders(self) -> None:
-        for slider in self._sliders.values():
-            slider.remove()
-        self._sliders = {}
+        for row in self._rows:
+            row.remove()
+        self._sliders, self._rows = {}, []
         with self._folder:
-            for each in self._movable[:_MOST_ROWS]:
-                self._add_slider(each)
+            for model, movable in groupby(self._movable[:_MOST_ROWS], key=lambda each: each.model):
+                self._rows.append(self.gui.add_folder(shortened(model) or None))
+                with self._rows[-1]:
+                    for each in movable:
+                        self._add_row(each)
+
+    def _add_row(self, movable: _Movable) -> None:
+        lower, upper = slider_range(movable.degree, beyond=self.choices.beyond)
+        if lower < upper:
+            self._add_slider(movable)
+            return
+        self.choices.positions[movable.key] = lower
+        value = lower * self._units_per_si(movable.key)
+        self.gui.add_number(movable.label, value, disabled=True, hint="Locked: its limits are the same")
 
     def _add_slider(self, movable: _Movable) -> None:
         key, degree = movable.key, movable.degree
@@ -153,7 +172,7 @@ class JointControls:
             upper,
             min(_FINEST * max(1.0, unit), (upper - lower) / _STEPS),
             _clamp(position * unit, lower, upper),
-            marks=((lower, f"{lower:.4g}"), (upper, f"{upper:.4g}")),
+            marks=tuple((each, f"{each:.4g}") for each in sorted({lower, _clamp(0.0, lower, upper), upper})),
             hint=_describe_range(movable, degrees=unit != 1.0),
         )
         self._sliders[key] = slider
@@ -214,18 +233,21 @@ def _find_numbers(value: object) -> Iterator[float]:
 def slider_range(degree: Degree, *, beyond: bool = False) -> tuple[float, float]:
     """Return the ends of a slider in rad or m: the limits, or a fixed range to both sides if there are none.
 
-    A slider always has a range, even if both limits are equal. With `beyond` it ignores the limits and goes farther.
+    A joint whose limits are the same is locked: both ends are there. With `beyond` a slider ignores the limits and goes
+    farther.
     """
     usual = _WAY if degree.slides else _TURN
     lower = degree.lower if math.isfinite(degree.lower) else -usual
     upper = degree.upper if math.isfinite(degree.upper) else usual
     if not math.isfinite(degree.lower) and upper <= lower:
         lower = upper - usual
-    if lower >= upper:
+    if lower > upper:
         lower, upper = min(lower, 0.0), max(upper, 0.0)
+        if lower == upper:
+            lower, upper = -usual, usual
     if beyond:
         return min(-_BEYOND * usual, lower - usual), max(_BEYOND * usual, upper + usual)
-    return (lower, upper) if lower < upper else (-usual, usual)
+    return lower, upper
 
 
 def _find_movable(figures: Sequence[Figure]) -> Iterator[_Movable]:

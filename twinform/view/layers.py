@@ -2,7 +2,7 @@
 
 import importlib
 import math
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from itertools import pairwise
 from typing import Any, NamedTuple
 
@@ -13,7 +13,7 @@ from twinform.ir import Mesh, Vector3
 from twinform.ir.motion import plane_across, slide, turn
 from twinform.ir.solids import Solid, principal_axes
 from twinform.ir.transform import Transform
-from twinform.view.figure import Figure, Handle, Rgb, placed, rgb
+from twinform.view.figure import MARK, Figure, Handle, Rgb, placed, rgb
 
 np: Any = importlib.import_module("numpy")
 
@@ -270,6 +270,10 @@ class Layer(NamedTuple):
     draw: Callable[[Figure], Iterable[Handle]]
 
 
+def _draw_world_axes(figure: Figure) -> Iterator[Handle]:
+    yield figure.axes(f"{figure.root}/origin", Transform(), "origin: x forward, y to the left, z up")
+
+
 LAYERS: tuple[Layer, ...] = (
     Layer("Visuals", shown=True, draw=_draw_visuals),
     Layer("Collisions", shown=False, draw=_draw_collisions),
@@ -281,7 +285,22 @@ LAYERS: tuple[Layer, ...] = (
     Layer("Inertias", shown=False, draw=inertias),
     Layer("Centers of mass", shown=False, draw=centers),
     Layer("Sensors", shown=False, draw=sensors),
+    Layer("Origin", shown=False, draw=_draw_world_axes),
     Layer("Mesh origins", shown=False, draw=_draw_mesh_origins),
     Layer("Link names", shown=False, draw=_write_link_names),
     Layer("Joint names", shown=False, draw=_write_joint_names),
 )
+COLORS: Mapping[str, Rgb] = {
+    "x": (204, 0, 0),
+    "y": (0, 204, 0),
+    "z": (0, 0, 204),
+    "joint axes": _AXIS,
+    "joint limits": _LIMIT,
+    "collisions": _COLLISION,
+    "inertias": _INERTIA_COLOR,
+    "inertias larger than the robot": _TOO_LARGE,
+    "centers of mass": _CENTER_COLOR,
+    "what sensors see": _SENSOR,
+    "selected, or not drawn": MARK,
+}
+"""What the colors of layers mean."""

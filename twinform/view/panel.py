@@ -7,10 +7,11 @@ import math
 from collections.abc import Callable, Iterable, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import field
+from itertools import groupby
 from threading import RLock
 from typing import Any
 
-from twinform.compiler.compare.comparison import Comparison
+from twinform.compiler.compare.comparison import Comparison, Difference
 from twinform.compiler.graph.graph import shortened
 from twinform.compiler.kinematics import Degree, Positions
 from twinform.compiler.scene import SceneJoint
@@ -19,14 +20,17 @@ from twinform.diagnostics import Diagnostic
 from twinform.ir import Vector3
 from twinform.ir.transform import Transform, across, cross, dot, minus
 from twinform.view import words
-from twinform.view.figure import MARK, Figure, Handle, Rgb
+from twinform.view.figure import MARK, VIEWS, Figure, Handle, Rgb, aim
 from twinform.view.joint_controls import Choices, JointControls, slider_range
-from twinform.view.layers import LAYERS, SKELETON, Layer
+from twinform.view.layers import COLORS, LAYERS, SKELETON, Layer
+from twinform.view.measuring import Measuring
 from twinform.view.subject import ViewSubject
 from twinform.view.words import Mark, tree
 
 _MOST_ROWS = 100
 """So many findings or differences have controls of their own; the page says how many more there are."""
+_FEW_ROWS = 20
+"""So many differences are open at first."""
 # With a smaller share of shapes drawn, the skeleton is shown at first.
 _FEW_DRAWN = 0.5
 
@@ -69,6 +73,9 @@ class Panel:
             self._add_layers()
         with tabs.add_tab("Tree"):
             self._add_tree()
+        if self.figures[0].scene.links:
+            with tabs.add_tab("Measure"):
+                Measuring(self.gui, self.figures[0], self.choices.positions).build()
         if self.comparison is not None:
             with tabs.add_tab("Differences"):
                 self._add_differences(self.comparison)
@@ -116,7 +123,7 @@ class Panel:
 
     def _update_page(self) -> None:
         labels = {name: text for figure in self.figures for name, text in figure.labels.items()}
-        self._page.content = words.control(labels, self._selected)
+        self._page.content = words.control(labels, self._selected, words.title(self.subjects))
 
     def _add_layers(self) -> None:
         if len(self.figures) > 1:
@@ -133,6 +140,17 @@ class Panel:
                 self._show_layer(layer, visible=box.value)
 
         self._add_grid()
+        self._add_views()
+        with self.gui.add_folder("Colors", expand_by_default=False):
+            self.gui.add_html(words.legend(COLORS))
+
+    def _add_views(self) -> None:
+        group = self.gui.add_button_group("From", tuple(VIEWS), hint="Where the camera is")
+
+        @group.on_click
+        def _(event: Any) -> None:
+            for camera in [event.client.camera] if event.client else []:
+                aim(camera, self.figures, group.value)
 
     def _show_layer(self, layer: Layer, *, visible: bool) -> None:
         with self.lock:
@@ -203,7 +221,7 @@ class Panel:
         for subject in self.subjects:
             rows = sorted(subject.findings, key=words.severity_rank)
             for found in rows[:_MOST_ROWS]:
-                label = f"{found.severity}: {found.rule.name}, line {found.location.line}"
+                label = f"{found.severity}: {found.rule.name}, {words.place(found)}"
                 color = words.severity_color(found)
                 self._add_row(label, words.finding(found), subject.links_at(found.location), color)
             if len(rows) > _MOST_ROWS:
@@ -216,13 +234,20 @@ class Panel:
 
     def _add_differences(self, comparison: Comparison) -> None:
         self.gui.add_html(words.compared(comparison))
-        for found in comparison.counted[:_MOST_ROWS]:
-            label = shortened(f"{found.group} {found.name}: {found.aspect}".rstrip(": "))
-            links = words.links_of(found, self.subjects)
-            color = next((self._colors[link] for link in links if link in self._colors), words.QUIET)
-            self._add_row(label, words.difference(found), links, color)
+        few = len(comparison.counted) <= _FEW_ROWS
+        for group, rows in groupby(comparison.counted[:_MOST_ROWS], key=lambda each: (each.group, each.name)):
+            found = list(rows)
+            label = shortened(" ".join(filter(None, group)))
+            with self.gui.add_folder(f"{label} ({len(found)})", expand_by_default=few):
+                for each in found:
+                    self._add_difference(each)
         if len(comparison.counted) > _MOST_ROWS:
             self.gui.add_html(words.more(len(comparison.counted) - _MOST_ROWS, "differences"))
+
+    def _add_difference(self, found: Difference) -> None:
+        links = words.links_of(found, self.subjects)
+        color = next((self._colors[link] for link in links if link in self._colors), words.QUIET)
+        self._add_row(shortened(found.aspect or found.group), words.difference(found), links, color)
 
     def _add_row(self, label: str, text: str, links: Sequence[str], color: Rgb) -> None:
         if not links:

@@ -22,9 +22,8 @@ from typing import Any
 from twinform.compiler.compare.comparison import Comparison
 from twinform.compiler.graph.graph import shortened
 from twinform.compiler.kinematics import Positions
-from twinform.ir import Vector3
 from twinform.view import words
-from twinform.view.figure import Figure, Handle, Look
+from twinform.view.figure import Figure, Handle, Look, aim
 from twinform.view.joint_controls import Choices
 from twinform.view.panel import Panel
 from twinform.view.subject import PortTakenError, ViewSubject
@@ -35,12 +34,8 @@ viser: Any = importlib.import_module("viser")
 
 # There is no option for another address, and a port that is taken is an error and not the next one.
 HOST = "127.0.0.1"
-FOV = math.radians(45)
-"""The vertical angle of view of cameras."""
 _SECOND = Look(color=(60, 130, 220), opacity=0.45)
 """How B is drawn over A."""
-_FROM = (0.85, -1.15, 0.65)
-"""Where the camera is from the middle of what is shown, in units of its size."""
 
 
 class Viewer:
@@ -86,6 +81,7 @@ class Viewer:
             figures, grid = draw(self.server.scene, subjects, self._root, self._listen)
             self.panel = Panel(self.server.gui, subjects, figures, grid, comparison, choices, self._lock)
             self.panel.build()
+            self.server.gui.set_panel_label(words.title(subjects))
             self.server.gui.main_panel.dock_right()
             for figure in figures:
                 figure.move(choices.positions)
@@ -102,11 +98,8 @@ class Viewer:
         """Move the cameras of all browsers, also of later ones, to where everything is seen."""
         if not self.figures:
             return
-        position, target = viewpoint(self.figures)
-        away = math.dist(position, target)
         for each in (self.server.initial_camera, *(it.camera for it in self.server.get_clients().values())):
-            each.position, each.look_at, each.fov = position, target, FOV
-            each.near, each.far = away / 100, away * 100
+            aim(each, self.figures)
 
     def move(self, positions: Positions) -> None:
         """Move joints to positions, as the sliders do."""
@@ -153,15 +146,6 @@ def draw(
     where = (0.0, 0.0, min(floor, 0.0))
     grid = api.add_grid(f"{root}/grid", size * 6, size * 6, cell_size=cell, section_size=10 * cell, position=where)
     return figures, grid
-
-
-def viewpoint(figures: Sequence[Figure]) -> tuple[Vector3, Vector3]:
-    """Return where a camera sees all of some figures, and the point that it looks at."""
-    bounds = [figure.bounds() for figure in figures]
-    least, greatest = np.min([each for each, _ in bounds], axis=0), np.max([each for _, each in bounds], axis=0)
-    x, y, z = (float(each) for each in (least + greatest) / 2)
-    away = max(figure.size for figure in figures)
-    return (x + away * _FROM[0], y + away * _FROM[1], z + away * _FROM[2]), (x, y, z)
 
 
 def _power_of_ten(length: float) -> float:

@@ -8,6 +8,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cache
 from html import escape
 from importlib.resources import files
+from pathlib import Path
 from typing import NamedTuple
 
 from twinform.compiler.compare.comparison import Comparison, Difference
@@ -118,6 +119,18 @@ def severity_color(found: Diagnostic) -> Rgb:
     return _SEVERITIES[found.severity][1]
 
 
+def title(subjects: Sequence[ViewSubject]) -> str:
+    """Return the names of the robots or worlds that are shown, with their files."""
+    first, *others = map(_name, subjects)
+    return f"A: {first}, B: {others[0]}" if others else first
+
+
+def _name(subject: ViewSubject) -> str:
+    parts = [*subject.document.worlds, *subject.document.models]
+    file = shortened(Path(subject.path).name)
+    return " \N{EM DASH} ".join(filter(None, (shortened(parts[0].name) if len(parts) == 1 else "", file)))
+
+
 def severity_rank(found: Diagnostic) -> int:
     """Return a key that sorts the worst findings first."""
     return -found.severity
@@ -168,17 +181,26 @@ def verdict(subjects: Sequence[ViewSubject]) -> str:
     return "".join(map(paragraph, lines))
 
 
+def place(found: Diagnostic) -> str:
+    """Return the file and line of a finding, which may be those of a file that is included."""
+    return f"{shortened(Path(found.location.file or '').name)}:{found.location.line}".lstrip(":")
+
+
 def finding(found: Diagnostic) -> str:
     """Return the message and help of a finding."""
     return paragraph(found.message) + (paragraph(f"help: {found.help}") if found.help else "")
+
+
+def legend(colors: Mapping[str, Rgb]) -> str:
+    """Return what colors mean."""
+    return "".join(heading(f"\N{BLACK SQUARE} {text}", color) for text, color in colors.items())
 
 
 def compared(comparison: Comparison) -> str:
     """Return whether two robots are the same, and what the colors mean."""
     if comparison.same:
         return paragraph("Both files describe the same robot.")
-    legend = "".join(heading(f"\N{BLACK SQUARE} {text}", color) for text, color in MEANINGS.items())
-    return paragraph(f"{len(comparison.counted)} differences, on links of these colors:") + legend
+    return paragraph(f"{len(comparison.counted)} differences, on links of these colors:") + legend(MEANINGS)
 
 
 def difference(found: Difference) -> str:
@@ -252,9 +274,9 @@ _RUN = "if(!window.twinform?.show){const s=document.createElement('script');s.te
 document.head.append(s)}twinform.show(JSON.parse(this.dataset.news))"
 
 
-def control(labels: Mapping[str, str], selected: Iterable[str]) -> str:
-    """Return HTML for a control of viser that runs the script with labels by names of nodes, and selected links."""
-    news = json.dumps({"labels": dict(labels), "selected": list(selected)})
+def control(labels: Mapping[str, str], selected: Iterable[str], title: str) -> str:
+    """Return HTML for a control of viser that runs the script with labels of nodes, selected links, and a title."""
+    news = json.dumps({"labels": dict(labels), "selected": list(selected), "title": title})
     return (
         f'<img hidden alt="" src="data:," onerror="{escape(_RUN)}" '
         f'data-script="{escape(_read_script())}" data-news="{escape(news)}">'

@@ -42,4 +42,5 @@ def test_no_text_is_an_error(text: str):
 def test_beyond_the_limits_is_more_than_within(lower: float, upper: float, slides: bool):
     degree = Degree((0, 0, 1), slides=slides, lower=lower, upper=upper)
     within, beyond = slider_range(degree), slider_range(degree, beyond=True)
-    assert beyond[0] < within[0] < within[1] < beyond[1]
+    assert beyond[0] < within[0] <= within[1] < beyond[1]
+    assert (within[0] == within[1]) == (lower == upper)

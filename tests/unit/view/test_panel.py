@@ -10,6 +10,7 @@ from tests.browser.test_view import ARM
 from twinform.compiler import LoadOptions
 from twinform.view import read_subject
 from twinform.view.figure import Figure
+from twinform.view.measuring import gravity_effort, lines_between
 from twinform.view.panel import Drag, drag_of
 from twinform.view.triangles import MeshDrawings
 
@@ -62,3 +63,19 @@ def test_the_grip_follows_the_pointer(figure: Figure, shoulder: float, link: str
 def test_it_turns_the_shorter_way(figure: Figure):
     drag = _drag(figure, "upper", {}, (0, 0, 0.3))
     assert abs(drag.position_at((-0.001, 0, -1))) <= math.pi
+
+
+def test_a_pendulum_pulls_with_the_sine_of_its_angle():
+    text = """<robot name="r"><link name="a"/><link name="b"><inertial><origin xyz="0 0 -0.5"/><mass value="2"/>
+      <inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>
+      <joint name="j" type="continuous"><parent link="a"/><child link="b"/><origin xyz="1 0 0"/><axis xyz="0 1 0"/>
+      </joint></robot>"""
+    subject, _ = read_subject(text.encode(), LoadOptions())
+    assert subject is not None
+    swing = Figure(_Nothing(), "/1/A", subject.scene, MeshDrawings())
+    for angle in (-1.0, 0.0, 0.3, math.pi / 2):
+        effort = gravity_effort(swing, ("j", 0), {("j", 0): angle})
+        assert effort == pytest.approx(9.8 * 2 * 0.5 * math.sin(angle), abs=1e-6)
+    swing.move({("j", 0): math.pi / 2})
+    distance, place, turned = lines_between(swing.poses["a"], swing.poses["b"])
+    assert (distance, place, turned) == ("distance 1 m", "xyz 1 0 0 m", "rpy 0 90 0 degrees")

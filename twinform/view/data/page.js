@@ -106,6 +106,7 @@
 
   page.show = (news) => {
     Object.assign(page, news);
+    if (news.title) document.title = news.title;
     say("");
     mark();
   };
