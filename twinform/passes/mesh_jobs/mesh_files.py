@@ -27,6 +27,10 @@ class RefusedMeshError(ValueError):
     """Why a mesh file is not read, or why nothing can be made of it."""
 
 
+class NoMeshError(ValueError):
+    """No mesh can stand for a shape; the text says why, or what to do."""
+
+
 def kind_of(path: PurePath) -> str:
     """The format of a file by its suffix, in lower case without the dot."""
     return path.suffix.lower().removeprefix(".")

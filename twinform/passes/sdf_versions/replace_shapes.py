@@ -5,9 +5,10 @@ from typing import ClassVar
 from twinform.diagnostics import rules
 from twinform.ir import Capsule, Cone, Document, Ellipsoid, Link, Polyline, bits_of, replace_fields, rewrite
 from twinform.passes.carriers.sdf_versions import VersionKeeper
+from twinform.passes.mesh_jobs.mesh_files import NoMeshError
 from twinform.passes.sdf_versions.spans import has_shape
 from twinform.passes.sdf_versions.version_pass import VersionPass
-from twinform.passes.shared.replaced_shapes import AnyPart, NoMeshError, ShapeReplacer, map_sensors, with_ends
+from twinform.passes.shared.replaced_shapes import AnyPart, ShapeReplacer, map_sensors, with_ends
 
 _HAVING = bits_of(Capsule) | bits_of(Cone) | bits_of(Ellipsoid) | bits_of(Polyline)
 

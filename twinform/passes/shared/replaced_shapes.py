@@ -19,6 +19,7 @@ from twinform.ir.geometry import Capsule, Cylinder, Geometry, Mesh, Sphere
 from twinform.ir.transform import Transform
 from twinform.passes.carriers.annotations import find_annotation, with_annotation, without_annotation
 from twinform.passes.carriers.carriers import Keeper, bits_of_ours, carry, is_ours
+from twinform.passes.mesh_jobs.mesh_files import MARK, NoMeshError
 from twinform.passes.shared.nodes import map_elements, piece, reserve_name
 
 AnyPart = TypeVar("AnyPart", Visual, Collision)
@@ -38,10 +39,6 @@ _HINTS = {
     "heightmap": "name a mesh of the terrain",
     "image": "name a mesh of it",
 }
-
-
-class NoMeshError(ValueError):
-    """No mesh can stand for a shape; the text says why, or what to do."""
 
 
 class _WrittenMesh(NamedTuple):
@@ -128,8 +125,7 @@ class ShapeReplacer:
         Raises:
             NoMeshError: there is none.
         """
-        from twinform.passes.mesh_jobs.mesh_files import MARK  # noqa: PLC0415 - few shapes need a mesh
-        from twinform.passes.shared.shape_meshes import format_length, mesh_of  # noqa: PLC0415 - see above
+        from twinform.passes.shared.shape_meshes import format_length, mesh_of  # noqa: PLC0415 - few shapes need a mesh
 
         mesh = mesh_of(geometry, self.error)
         if not self.side_files:

@@ -8,9 +8,8 @@ from twinform.ir import Cone, Ellipsoid, Geometry, Polyline
 from twinform.ir.defaults import sizes
 from twinform.ir.geometry import Vector2
 from twinform.ir.node import Vector3
-from twinform.passes.mesh_jobs.mesh_files import MARK
+from twinform.passes.mesh_jobs.mesh_files import MARK, NoMeshError
 from twinform.passes.shared.outlines import OutlineError, triangulate
-from twinform.passes.shared.replaced_shapes import NoMeshError
 
 RELATIVE_ERROR = 0.01
 """The distance where none is asked for, as a part of the largest radius."""

@@ -13,9 +13,8 @@ from tests.profile import examples
 from twinform.ir import Box, Cone, Element, Ellipsoid, Geometry, Opaque, Polyline
 from twinform.ir.geometry import Vector2
 from twinform.ir.node import Vector3
-from twinform.passes.mesh_jobs.mesh_files import MARK
+from twinform.passes.mesh_jobs.mesh_files import MARK, NoMeshError
 from twinform.passes.shared.outlines import OutlineError, triangulate
-from twinform.passes.shared.replaced_shapes import NoMeshError
 from twinform.passes.shared.shape_meshes import ShapeMesh, mesh_of
 
 SIZE = st.floats(0.01, 10)
