@@ -77,7 +77,16 @@ def child_of(element: Element, word: str) -> Element | None:
 
 def closes_loop(part: Opaque) -> bool:
     """Whether a part of a robot of URDF is an element that closes a loop."""
-    return part.element is not None and not part.at and usual_word(part.element) in LOOP_FORMS
+    return _word_of_joint(part) in LOOP_FORMS
+
+
+def _word_of_joint(part: Opaque) -> str:
+    """The name of an element that is a joint of another reader of URDF; empty for other parts."""
+    word = usual_word(part.element) if part.element and not part.at else ""
+    if part.element is None or (word != DRAKE_JOINT and word not in LOOP_FORMS):
+        return ""
+    # What Drake has in SDF names its ends by texts, and stands in a URDF that was made of it.
+    return "" if any(usual_word(each).startswith("drake:") and each.text for each in part.element.children) else word
 
 
 def ends_of(element: Element) -> tuple[str | None, str | None]:
@@ -90,8 +99,8 @@ def ends_of(element: Element) -> tuple[str | None, str | None]:
 def foreign_joints(model: Model) -> Iterator[ForeignJoint]:
     """Yield the joints of other readers in a robot of URDF."""
     for part in model.opaque:
-        word = usual_word(part.element) if part.element and not part.at else ""
-        if part.element and (word == DRAKE_JOINT or word in LOOP_FORMS):
+        word = _word_of_joint(part)
+        if part.element and word:
             (parent, child), name = ends_of(part.element), part.element.get("name")
             joint = Joint.unchecked(
                 name=name or "",

@@ -190,7 +190,8 @@ def report_loops(joints: Iterable[Joint], sink: DiagnosticSink, severity: Severi
     listed = list(joints)
     # A file of URDF with such a loop is refused by most readers, and is a robot of SDF all the same. What goes round in
     # a circle has no root, and no pass that goes up or down the tree comes to an end.
-    is_robot = severity is None and not _go_round(listed)
+    is_tree = len({joint.child for joint in listed}) == len(listed)
+    is_robot = severity is None and not is_tree and not _go_round(listed)
     for joint in listed:
         if joint.child is None:
             continue
