@@ -1,5 +1,6 @@
 """Conversion of what closes a loop in URDF for other readers to joints of SDF."""
 
+from collections import Counter
 from typing import ClassVar
 
 from twinform.diagnostics import DiagnosticSink, rules
@@ -41,9 +42,9 @@ class CloseLoops(ModelPass):
         taken = {node.name for node in (*model.links, *model.joints, *(each.joint for each in loops))}
         keeper = Keeper(sink, self.carriers)
         graph, fixed = FrameGraph(model), _fixed_groups(model)
-        joints, left = list(model.joints), list[Opaque]()
+        joints, left, between = list(model.joints), list[Opaque](), Counter[str]()
         for each in loops:
-            name = each.joint.name or reserve_name(f"{each.joint.parent}_{each.joint.child}_loop", taken)
+            name = each.joint.name or reserve_name(_name_loop(each.joint, between), taken)
             try:
                 _require_motion(each.joint, fixed)
                 joints.append(read_loop(each, name, graph, links, annotated=annotated))
@@ -56,6 +57,14 @@ class CloseLoops(ModelPass):
         opaque = tuple(part for part in model.opaque if not closes_loop(part))
         model = model.copy(joints=tuple(joints), opaque=opaque)
         return carry(model, left, "urdf") if self.carriers else model
+
+
+def _name_loop(joint: Joint, between: Counter[str]) -> str:
+    """A name for a loop that has none; `between` counts those between the same links."""
+    name = f"{joint.parent}_{joint.child}_loop"
+    number = between[name]  # counted here: to try all numbers for each of many would take the square of their time
+    between[name] += 1
+    return f"{name}_{number}" if number else name
 
 
 def _leave_open(model: Model, keeper: Keeper) -> Model:
