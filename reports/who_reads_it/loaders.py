@@ -1,4 +1,4 @@
-"""Do the profiles say what the loaders do? Every loader reads the corpus and made files, beside its profile."""
+"""Do the profiles say what the loaders do? Every loader reads the corpus and mutated files, beside its profile."""
 
 import itertools
 import re

@@ -7,9 +7,11 @@ from pathlib import Path
 
 import pytest
 
-from testbed.engines.readers import LOADERS, Kept, Loader, Reader, Reading, Verdict
+from testbed.engines.readers import LOADERS, USUAL, Kept, Loader, Reader, Reading, Verdict
 from testbed.engines.readers.meshless import without_meshes
 from testbed.engines.readers.recalled import Recalled
+from twinform.profiles import load
+from twinform.profiles.profile import PORTABLE, releases_of
 
 INERTIAL = '<inertial><mass value="2"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'
 ROBOT = f"""<robot name="r"><link name="a">{INERTIAL}</link><link name="b">{INERTIAL}</link>
@@ -46,6 +48,15 @@ def test_a_loader_accepts_refuses_and_says_what_it_keeps(loader: Loader, tmp_pat
     assert loader.verdict(refused) is Verdict.REFUSES, refused
     assert refused.kept is None
     assert loader.reader.version()
+
+
+def test_every_release_that_was_seen_has_a_loader_and_packages_are_of_its_version() -> None:
+    tested = [each.name for each in load(PORTABLE)]
+    seen = {f"{name}@{each.name}": each.seen for name in tested for each in releases_of(name) if each.seen}
+    assert {loader.consumer for loader in LOADERS} == set(seen)
+    assert {loader.profile for loader in USUAL} == set(tested)
+    for loader in LOADERS:
+        assert loader.package is None or loader.package[1] == loader.reader.version() == seen[loader.consumer]
 
 
 def test_a_reader_whose_process_is_ended_is_asked_again(tmp_path: Path) -> None:

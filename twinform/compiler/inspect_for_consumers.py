@@ -46,7 +46,7 @@ def unread(profile: Profile, format_: Format | None, path: str) -> Diagnostic:
     """Make the finding that a consumer does not read a format at all."""
     reads = " and ".join(each.upper() for each in profile.formats)
     message = f"{profile.label} does not read {format_.upper() if format_ else 'this format'}; it reads {reads}"
-    advice = f"twinform convert --to {profile.formats[0]} --for {profile.name}"
+    advice = f"twinform convert --to {profile.formats[0]} --for {profile.consumer}"
     return Diagnostic(UNREAD_FORMAT, message, Location(path, 1, "/"), UNREAD_FORMAT.severity, help=advice)
 
 

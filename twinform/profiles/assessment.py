@@ -193,16 +193,18 @@ class Shortfalls:
         if not profile.reads or self._subject.content is None or self._subject.format is Format.SDF:
             return
         for each in read_as(profile.reads, self._subject.content, self._subject.has_file):
-            finding = self._merge_findings(each)
+            finding = self._merge_findings(each, profile)
             words = {"rule": finding.rule.name, "effect": each.effect, "about": each.about, "pass": each.pipeline}
             yield Judgment(ProfileRow.model_validate(words), finding)
 
-    def _merge_findings(self, each: Shortfall) -> Diagnostic:
+    def _merge_findings(self, each: Shortfall, profile: Profile) -> Diagnostic:
         rule = _SHORTFALLS[each.kind]
         key = (rule.name, each.message, each.line)
         if key not in self._findings:
             place = Location(self._subject.path, each.line, each.path or "/")
-            new = Diagnostic(rule, each.message, place, rule.severity, each.found, each.expected)
+            of_version = profile.release.urdf is not None and place.path.endswith("/@version")
+            advice = f"twinform convert --to urdf --for {profile.consumer}" if of_version else None
+            new = Diagnostic(rule, each.message, place, rule.severity, each.found, each.expected, help=advice)
             self._findings[key] = self._known.of(each) or new
         return self._findings[key]
 

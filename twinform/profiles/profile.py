@@ -125,6 +125,11 @@ class Profile:
     named: bool = True
 
     @property
+    def consumer(self) -> str:
+        """The name with that of the release, where there is one, as `--for` takes it."""
+        return f"{self.name}@{self.called}" if self.called else self.name
+
+    @property
     def version(self) -> str:
         """The release as the user calls it, or else the version of it that was tested."""
         return self.called or self.release.seen or self.release.name

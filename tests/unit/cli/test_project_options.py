@@ -108,6 +108,7 @@ def test_a_version_that_a_release_reads(run: Run, robot: Path, tmp_path: Path, r
     assert run("check", out, "--for", f"urdfdom@{release}").exit_code == 0
     before = run("check", robot, "--for", f"urdfdom@{release}")
     assert before.exit_code == (0 if release == "rolling" else 1)
+    assert (f"help: twinform convert --to urdf --for urdfdom@{release}" in before.stdout) is (release != "rolling")
 
 
 def test_an_older_version_stays_for_a_newer_release(run: Run, robot: Path, tmp_path: Path) -> None:
