@@ -61,7 +61,9 @@ generate: $(SYNCED) ## write the files that are made from tables: schemas and re
 	$(BIN)/python -m twinform.passes.framework.passes_page docs/reference/passes.md
 	$(BIN)/python -m twinform.passes.legalise.pipeline_page docs/explanation/pipeline.md
 	$(BIN)/python -m twinform.passes.plugins.plugins_page docs/reference/plugins.md
+	$(BIN)/python -m generators.shown_by twinform/profiles/data/shown_by.json
 	$(BIN)/python -m twinform.profiles.profile_pages docs/reference/profiles
+	$(BIN)/python -m reports.who_reads_it.feature_pages docs/reference/who_reads_what
 	$(BIN)/python -m twinform.compiler.compare.not_compared_page docs/reference/not_compared.md
 	$(BIN)/python -m twinform.cli.commands_page docs/reference/commands.md
 	$(BIN)/python -m twinform.compiler.options_page docs/reference/options.md
@@ -85,7 +87,9 @@ lint: $(SYNCED) ## formatting, lint, types, layers, generated files, and a wheel
 	$(BIN)/python -m twinform.passes.framework.passes_page docs/reference/passes.md --check
 	$(BIN)/python -m twinform.passes.legalise.pipeline_page docs/explanation/pipeline.md --check
 	$(BIN)/python -m twinform.passes.plugins.plugins_page docs/reference/plugins.md --check
+	$(BIN)/python -m generators.shown_by twinform/profiles/data/shown_by.json --check
 	$(BIN)/python -m twinform.profiles.profile_pages docs/reference/profiles --check
+	$(BIN)/python -m reports.who_reads_it.feature_pages docs/reference/who_reads_what --check
 	$(BIN)/python -m twinform.compiler.compare.not_compared_page docs/reference/not_compared.md --check
 	$(BIN)/python -m twinform.cli.commands_page docs/reference/commands.md --check
 	$(BIN)/python -m twinform.compiler.options_page docs/reference/options.md --check
@@ -167,7 +171,7 @@ demo: $(BIN)/twinform ## the rover to SDF and back: what is found, what became o
 	$(BIN)/twinform diff examples/rover.urdf $(DEMO)/rover.urdf
 	@echo; echo "The files are in $(DEMO). The command is $(BIN)/twinform; try $(BIN)/twinform --help"
 
-report: $(if $(NAME),$(ORACLES),$(SYNCED)) $(if $(filter loaders portable usd who_reads_it,$(NAME)),$(READERS)) $(if $(filter meshes fixes_and_passes packages ros2_packages worlds_and_packages,$(NAME)),$(ROBOTS)) $(if $(filter performance speed,$(NAME)),$(PEERS)) ## measure a section or a page: NAME=lumping ARGS="--every 50"; which there are without NAME
+report: $(if $(NAME),$(ORACLES),$(SYNCED)) $(if $(filter who_reads_what loaders portable usd who_reads_it,$(NAME)),$(READERS)) $(if $(filter meshes fixes_and_passes packages ros2_packages worlds_and_packages,$(NAME)),$(ROBOTS)) $(if $(filter performance speed,$(NAME)),$(PEERS)) ## measure a section or a page: NAME=lumping ARGS="--every 50"; which there are without NAME
 	@$(BIN)/python -m reports $(NAME) $(ARGS)
 
 report: export TWINFORM_NODE_MODULES = $(CURDIR)/out/readers/node_modules

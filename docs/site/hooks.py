@@ -21,6 +21,8 @@ _TITLE = re.compile(r"^# (.+)$", re.MULTILINE)
 _LISTED = {"Evidence": "evidence"}
 _LATER = {"evidence": 0.2, "explanation": 0.4}
 """What the search makes of matches in pages of a folder: who looks for a word wants to use it first."""
+_WIDE = frozenset({"reference/who_reads_what/README.md"})
+"""Pages with tables that need all of the width."""
 _RULES = "twinform/diagnostics/rules/"
 """Where the rules are written; the site has their pages below `reference/rules/`."""
 _copied: dict[str, File] = {}
@@ -61,6 +63,8 @@ def on_page_markdown(markdown: str, *, page: Page, config: Any, files: Files) ->
     """Let links out of docs/ lead to the copies, and say how much the search makes of the page."""
     del config, files
     page.meta["search"] = {"boost": _LATER.get(posixpath.dirname(page.file.src_uri), 1.0)}
+    if page.file.src_uri in _WIDE:
+        page.meta["hide"] = ["navigation", "toc"]
 
     def changed(match: re.Match[str]) -> str:
         target = _outside(page.file.src_uri, match["path"])

@@ -1,6 +1,7 @@
 """Who reads it?"""
 
 SECTIONS = {
+    "who_reads_what": "Who reads what",
     "loaders": "What loaders do, and what their profiles say",
     "portable": "Converted for all loaders",
     "gazebo_ready": "What was converted for Gazebo",

@@ -82,7 +82,7 @@ def _pair(job: Job, loader: Loader, assessment: Assessment) -> Pair:
     ours = " / ".join(
         f"{each.row.effect}: {each.finding.rule.name}: {each.finding.message}" for each in _worst(assessment)
     )
-    return Pair(job.name, loader.consumer, verdict, theirs, ours, _difference(job, loader, reading, assessment))
+    return Pair(job.name, loader.consumer, verdict, theirs, ours, difference(job.path, loader, reading, assessment))
 
 
 def _worst(assessment: Assessment) -> Iterator[Judgment]:
@@ -90,7 +90,8 @@ def _worst(assessment: Assessment) -> Iterator[Judgment]:
         yield from assessment.by(effect)
 
 
-def _difference(job: Job, loader: Loader, reading: Reading, assessment: Assessment) -> Difference | None:
+def difference(path: Path, loader: Loader, reading: Reading, assessment: Assessment) -> Difference | None:
+    """How a loader and its profile differ about a file; None where they agree."""
     verdict, effects = loader.verdict(reading), {each.row.effect for each in assessment.judgments}
     refused = not assessment.reads or Effect.REFUSES in effects
     if refused != (verdict is Verdict.REFUSES):
@@ -101,17 +102,15 @@ def _difference(job: Job, loader: Loader, reading: Reading, assessment: Assessme
         return Difference.THEY_REMARK
     if verdict is Verdict.ACCEPTS and effects == {Effect.WARNS}:
         return Difference.WE_REMARK
-    if reading.kept is not None and not effects & _LOSING and not _is_whole(job.path, loader, reading.kept):
+    if reading.kept is not None and not effects & _LOSING and not is_whole(path, loader, reading.kept):
         return Difference.KEPT
     return None
 
 
-def _is_whole(path: Path, loader: Loader, kept: Kept) -> bool:
+def is_whole(path: Path, loader: Loader, kept: Kept) -> bool:
     """Whether all joints that move are there, and all of the mass where the file has one for every link."""
-    if path.suffix != ".urdf":
-        return True
     found = _contents(path)
-    if not found.joints <= set(kept.joints):
+    if not found.joints <= {*kept.joints, *(name.rpartition("::")[2] for name in kept.joints)}:
         return False
     if loader.profile in _WORLDLY:  # and bodies without an inertial get the mass of their shapes
         return kept.mass >= found.moving * (1 - _LIGHT) or not math.isfinite(found.moving)
@@ -134,6 +133,8 @@ class _Contents:
 @cache
 def _contents(path: Path) -> _Contents:
     root = etree.parse(path, etree.XMLParser(recover=True)).getroot()
+    if path.suffix == ".sdf":
+        return _contents_of_sdf(root)
     joints = frozenset(joint.get("name", "") for joint in root.findall("joint") if joint.get("type") in _MOVING)
     masses: dict[str, float] = {}
     try:
@@ -144,6 +145,18 @@ def _contents(path: Path) -> _Contents:
         return _Contents(joints, None, 0.0)
     still = _standing_still(root, masses)
     return _Contents(joints, sum(masses.values()), sum(mass for name, mass in masses.items() if name not in still))
+
+
+def _contents_of_sdf(root: XmlElement) -> _Contents:
+    joints = frozenset(joint.get("name", "") for joint in root.iter("joint") if joint.get("type") != "fixed")
+    masses = [link.findtext("inertial/mass") for link in root.iter("link")]
+    if root.find(".//include") is not None:
+        return _Contents(joints, None, 0.0)
+    try:
+        # a link without a mass has 1 kg in SDF
+        return _Contents(joints, sum(1.0 if mass is None else float(mass) for mass in masses), 0.0)
+    except ValueError:
+        return _Contents(joints, None, 0.0)
 
 
 def _standing_still(root: XmlElement, links: Iterable[str]) -> set[str]:

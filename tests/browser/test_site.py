@@ -18,7 +18,7 @@ import pytest
 from .watched import Watched, violations
 
 if TYPE_CHECKING:
-    from playwright.sync_api import Page
+    from playwright.sync_api import Browser, Page
 
 _ROOT = Path(__file__).parents[2]
 _LOADED = {"script": "src", "img": "src", "iframe": "src", "source": "src"}
@@ -167,6 +167,8 @@ _LOOKED_AT = (
     "reference/urdf/joint",
     "reference/rules/dangling-link",
     "reference/profiles/drake",
+    "reference/who_reads_what/index",
+    "reference/who_reads_what/joints",
     "evidence/speed",
 )
 """A page of each kind."""
@@ -188,3 +190,49 @@ def test_pages_can_be_read_by_everybody(site: Path, watched: Watched, scheme: st
             page.set_viewport_size({"width": width, "height": 900})
             page.wait_for_function("document.documentElement.scrollWidth <= document.documentElement.clientWidth")
     assert watched.complaints == []
+
+
+@pytest.fixture
+def matrix(site: Path, page: "Page") -> "Page":
+    """The matrix of features, from the disk."""
+    page.goto(f"{site.as_uri()}/reference/who_reads_what/index.html")
+    return page
+
+
+_ROWS = "() => [...document.querySelectorAll('#matrix tbody tr')].filter(row => row.checkVisibility()).length"
+
+
+def test_the_matrix_is_filtered_by_words_format_verdict_and_program(matrix: "Page") -> None:
+    every = matrix.evaluate(_ROWS)
+    assert every > 100
+    matrix.get_by_label("Words").fill("mimic")
+    assert 0 < matrix.evaluate(_ROWS) < every
+    assert matrix.get_by_role("status").inner_text() == f"{matrix.evaluate(_ROWS)} of {every} features"
+    matrix.get_by_label("Format").select_option("SDF")
+    assert matrix.evaluate(_ROWS) == 1
+    matrix.get_by_label("Words").fill("")
+    matrix.get_by_label("Some program").select_option("refuses")
+    refused = matrix.evaluate(_ROWS)
+    matrix.get_by_text("Programs", exact=True).click()
+    matrix.get_by_role("button", name="None").click()
+    assert matrix.evaluate(_ROWS) == 0
+    matrix.get_by_role("checkbox", name="Drake").first.check()
+    assert 0 < matrix.evaluate(_ROWS) <= refused
+    again = matrix.evaluate(_ROWS)
+    matrix.reload()
+    assert matrix.evaluate(_ROWS) == again, "the choice stands in the address"
+
+
+def test_a_feature_of_the_matrix_leads_to_its_file(matrix: "Page") -> None:
+    matrix.get_by_role("link", name="A joint that follows another", exact=True).click()
+    assert matrix.url.endswith("/joints.html#mimic")
+    assert matrix.locator("#mimic ~ .highlight code").first.inner_text().startswith("<robot")
+
+
+def test_the_matrix_is_whole_without_its_script(site: Path, browser: "Browser") -> None:
+    context = browser.new_context(java_script_enabled=False)
+    page = context.new_page()
+    page.goto(f"{site.as_uri()}/reference/who_reads_what/index.html")
+    assert page.locator("#matrix tbody tr").count() > 100
+    assert page.locator("#matrix-filter").count() == 0
+    context.close()

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
         ProfileError,
         ProfileRow,
         UnknownProfileError,
+        every_release,
         load,
         names,
         parse,
@@ -31,7 +32,9 @@ else:
         __name__,
         {
             "twinform.profiles.assessment": "Assessment ConsumerVerdict Judgment assess findings",
-            "twinform.profiles.profile": "Effect Profile ProfileError ProfileRow UnknownProfileError load names parse",
+            "twinform.profiles.profile": (
+                "Effect Profile ProfileError ProfileRow UnknownProfileError every_release load names parse"
+            ),
             "twinform.profiles.detectors": "ProfiledFile",
         },
     )
@@ -47,6 +50,7 @@ __all__ = [
     "ProfiledFile",
     "UnknownProfileError",
     "assess",
+    "every_release",
     "findings",
     "load",
     "names",

@@ -9,6 +9,7 @@ from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Location, Severity, rules
 from twinform.ir import Format
 from twinform.profiles.detectors import DETECTORS, ProfiledFile
+from twinform.profiles.features import shown_by
 from twinform.profiles.profile import Effect, Profile, ProfileRow
 from twinform.profiles.walking import Shortfall, read_as
 
@@ -225,9 +226,17 @@ def _merge_findings(minded: _Minded) -> Diagnostic:
     finding = minded[0][1].finding
     worst = max(_SEVERITIES[judgment.row.effect] for _, judgment in minded)
     passes = dict.fromkeys(judgment.row.pipeline for _, judgment in minded if judgment.row.pipeline)
-    advice = f"--passes '{','.join(passes)}'" if passes else finding.help
+    advice = [f"--passes '{','.join(passes)}'"] if passes else [finding.help] if finding.help else []
     message = f"{finding.message}; {'; '.join(_describe_effects(minded))}"
-    return replace(finding, message=message, severity=max(worst, finding.severity), help=advice)
+    help_ = "\n".join([*advice, *_point_to_feature(minded)]) or None
+    return replace(finding, message=message, severity=max(worst, finding.severity), help=help_)
+
+
+def _point_to_feature(minded: _Minded) -> Iterator[str]:
+    """The command that shows what all consumers make of the same thing, where a feature shows it."""
+    rows = ((judgment.row, judgment.finding.location.path) for _, judgment in minded)
+    if feature := next(filter(None, (shown_by(row.about, path, row.rule) for row, path in rows)), ""):
+        yield f"`twinform explain {feature}` says who reads it"
 
 
 def _describe_effects(minded: _Minded) -> Iterator[str]:

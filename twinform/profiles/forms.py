@@ -194,6 +194,7 @@ FORMS: Mapping[str, tuple[str, Callable[[str], bool]]] = {
     "bounded": ("finite numbers", _are_bounded),
     "zero": ("0", lambda text: not any(_leading_numbers(text))),
     "directed": ("a direction", _is_directed),
+    "hull": ("a mesh in OBJ, VTK or glTF", lambda text: not text or text.lower().endswith((".obj", ".vtk", ".gltf"))),
     "urdf-1.0": ("1.0", _version_in((1, 0))),
     "urdf-1.1": ("1.0 or 1.1", _version_in((1, 0), (1, 1))),
     "urdf-1.2": ("1.0, 1.1 or 1.2", _version_in((1, 0), (1, 1), (1, 2))),

@@ -135,6 +135,11 @@ class Profile:
         return self.called or self.release.seen or self.release.name
 
     @property
+    def is_complete(self) -> bool:
+        """Whether the consumer reads what no row is about: it was tested, or there is a table of what it reads."""
+        return self.tested or bool(self.reads)
+
+    @property
     def label(self) -> str:
         """The name for messages, such as `MuJoCo 4.0.0`."""
         return f"{self.title} {self.version}"
@@ -146,6 +151,12 @@ def names() -> tuple[str, ...]:
     folder = package_files("twinform.profiles").joinpath("data")
     found = [each.name.removesuffix(".toml") for each in folder.iterdir() if each.name.endswith(".toml")]
     return (*sorted(found), PORTABLE)
+
+
+def every_release() -> tuple[Profile, ...]:
+    """All profiles, once for each of their releases, oldest first."""
+    every = (f"{name}@{each.name}" for name in names() if name != PORTABLE for each in releases_of(name))
+    return tuple(profile for text in every for profile in load(text))
 
 
 @cache

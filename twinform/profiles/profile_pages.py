@@ -4,6 +4,7 @@ import sys
 from collections.abc import Iterator
 
 from twinform.diagnostics.generated_files import main_of_folder
+from twinform.profiles.features import shown_by
 from twinform.profiles.profile import PORTABLE, Profile, ProfileRow, all_rows, load, names, releases_of
 from twinform.profiles.reads_tables import Demand, PlaceStep, demands_by_release
 from twinform.profiles.releases import Release
@@ -57,14 +58,14 @@ def _profile_page(profile: Profile) -> str:
         lines.append(f"Without a release, {profile.release.name} is meant.\n")
     if rows := all_rows(profile.name):
         lines += [
-            "| what is found | format | releases | effect | what it does | passes that help |",
-            "| --- | --- | --- | --- | --- | --- |",
+            "| what is found | format | releases | effect | what it does | passes that help | shown by |",
+            "| --- | --- | --- | --- | --- | --- | --- |",
         ]
         lines += [_format_row(each) for each in rows] + [""]
     if profile.reads:
         lines += [
-            "| what it reads of URDF | releases | effect otherwise | what it does | passes that help |",
-            "| --- | --- | --- | --- | --- |",
+            "| what it reads of URDF | releases | effect otherwise | what it does | passes that help | shown by |",
+            "| --- | --- | --- | --- | --- | --- |",
         ]
         lines += [*_demand_rows(profile.name, known), ""]
     return "\n".join(lines).rstrip("\n") + "\n"
@@ -81,7 +82,9 @@ def _format_row(row: ProfileRow) -> str:
     format_ = row.format.upper() if row.format else ""
     passes = f"`{row.pipeline}`" if row.pipeline else ""
     rule = f"[{row.rule}](../../../twinform/diagnostics/rules/{row.rule}.md){_escape(narrowed)}"
-    cells = (rule, format_, _format_span(row.since, row.until), row.effect, _cited(row.about, row.source), passes)
+    feature = _link_feature(shown_by(row.about, "", row.rule))
+    about = _cited(row.about, row.source)
+    cells = (rule, format_, _format_span(row.since, row.until), row.effect, about, passes, feature)
     return f"| {' | '.join(cells)} |"
 
 
@@ -91,7 +94,8 @@ def _demand_rows(name: str, known: tuple[Release, ...]) -> Iterator[str]:
         first, last = releases[0], releases[-1]
         since, until = ("" if first is known[0] else first.name), ("" if last is known[-1] else last.name)
         about = _escape(_cited(each.about, each.source))
-        yield f"| {_escape(_format_place(each))} | {_format_span(since, until)} | {each.effect} | {about} | {passes} |"
+        span, feature = _format_span(since, until), _link_feature(shown_by(each.about, _path(each)))
+        yield f"| {_escape(_format_place(each))} | {span} | {each.effect} | {about} | {passes} | {feature} |"
 
 
 def _format_span(since: str, until: str) -> str:
@@ -103,6 +107,17 @@ def _format_span(since: str, until: str) -> str:
 
 def _cited(about: str, source: str) -> str:
     return f"{about} (read in {source})" if source else about
+
+
+def _path(demand: Demand) -> str:
+    """The XPath to what a demand is about, as findings have it."""
+    below = [demand.item] if demand.item.startswith("@") else []
+    return "/".join(["/robot", *(step.tag for step in demand.place), *below])
+
+
+def _link_feature(name: str) -> str:
+    group, _, stem = name.partition("/")
+    return f"[{stem}](../who_reads_what/{group}.md#{stem})" if name else ""
 
 
 def _format_place(demand: Demand) -> str:

@@ -23,3 +23,18 @@ def test_an_unknown_rule_exits_2_with_the_nearest_names(run: Run) -> None:
     assert (done.exit_code, done.stdout) == (2, "")
     assert "the nearest are missing-element" in done.stderr
     assert "lists all" in run("explain", "zzzzzzzz").stderr
+
+
+def test_a_feature_has_its_file_and_what_every_profile_says(run: Run) -> None:
+    done = run("explain", "shapes/size-zero")
+    assert done.exit_code == 0
+    assert done.stdout.startswith("shapes/size-zero (URDF)\nA box with a side of 0: Is it taken?\n\n<robot")
+    assert "  MuJoCo 3.x to 4.0: refuses: a shape has a size\n" in done.stdout
+    assert "  Gazebo Classic 11: nothing is known\n" in done.stdout
+    assert done.stdout.endswith("docs/reference/who_reads_what/shapes.md#size-zero\n")
+
+
+def test_an_unknown_feature_exits_2_with_the_nearest_name(run: Run) -> None:
+    done = run("explain", "joints/mimik")
+    assert (done.exit_code, done.stdout) == (2, "")
+    assert "did you mean 'joints/mimic'?" in done.stderr
