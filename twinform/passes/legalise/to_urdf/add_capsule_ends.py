@@ -3,9 +3,9 @@
 from collections.abc import Mapping
 from typing import ClassVar
 
-from twinform.ir import Link, Model, replace_fields
+from twinform.ir import Link, Model, census_of, replace_fields
 from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
-from twinform.passes.shared.replaced_shapes import map_touched, with_ends
+from twinform.passes.shared.replaced_shapes import REPLACED, map_touched, with_ends
 
 
 class AddCapsuleEnds(ToUrdfPass):
@@ -23,6 +23,8 @@ class AddCapsuleEnds(ToUrdfPass):
     # have is carried once. Before `name-shapes-for-gazebo`, which counts all shapes.
     def run_model(self, model: Model, keeper: UrdfKeeper) -> Model:
         """The model with whole capsules."""
+        if not census_of(model) & REPLACED:
+            return model
         links: list[Link] = []
         ends: dict[str | None, Mapping[str, tuple[str, ...]]] = {}
         for link in model.links:
