@@ -48,7 +48,7 @@ def measure(sample: Sample) -> Findings:
 
 
 def _travel(file: CorpusFile) -> list[Trip]:
-    found = [there_and_back(file.path, file.name, version) for version in VERSIONS]
+    found = [there_and_back(file, version) for version in VERSIONS]
     return [trip for trip in found if trip is not None]
 
 

@@ -1,10 +1,10 @@
 """One real file in other versions of SDF, and back."""
 
 from dataclasses import dataclass
-from pathlib import Path
 
 import twinform
 from testbed.corpus.examine import rules_of
+from testbed.corpus.files import CorpusFile
 from twinform.diagnostics import Fate, Ledger
 from twinform.ir import Document
 from twinform.ir.changes import changes
@@ -37,13 +37,14 @@ class Trip:
         return not self.refused_by
 
 
-def there_and_back(path: Path, name: str, version: str) -> Trip | None:
+def there_and_back(file: CorpusFile, version: str) -> Trip | None:
     """Write a file in the newest version, then in `version`, then in the newest again; None where it is refused."""
-    if not twinform.check(path).accepted:
+    if not twinform.check(file.path).accepted:
         return None
+    name, around = file.name, (file.path.parent, *file.paths)
     try:
-        newest = twinform.convert(path, to="sdf", sdf_version=NEWEST)
-        older = twinform.convert(newest.text.encode(), to="sdf", sdf_version=version, name=name)
+        newest = twinform.convert(file.path, to="sdf", sdf_version=NEWEST)
+        older = twinform.convert(newest.text.encode(), to="sdf", sdf_version=version, name=name, paths=around)
         again = twinform.convert(older.text.encode(), to="sdf", sdf_version=NEWEST, name=name)
     except twinform.CompileError as error:
         return Trip(name, version, refused_by=rules_of(error.diagnostics))

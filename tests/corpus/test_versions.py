@@ -16,7 +16,7 @@ VERSIONS = ("1.4", "1.6", "1.9")
 
 
 def _trips(files: tuple[CorpusFile, ...], version: str) -> list[Trip]:
-    found = [there_and_back(file.path, file.name, version) for file in files]
+    found = [there_and_back(file, version) for file in files]
     return [trip for trip in found if trip is not None]
 
 

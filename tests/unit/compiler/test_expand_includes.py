@@ -200,8 +200,8 @@ def test_an_older_world_is_raised_to_the_version_of_what_it_includes(folder: Pat
 def test_a_version_that_is_not_known_counts_as_the_one_that_it_is_read_by(
     folder: Path, declared: str, expected: str
 ) -> None:
-    text = f'<sdf version="{declared}"><model name="n"><link name="a"/><link name="b"><pose relative_to="a"/></link></model>'
-    (folder / "new.sdf").write_text(f"{text}</sdf>")
+    links = '<link name="a"/><link name="b"><pose relative_to="a"/></link>'
+    (folder / "new.sdf").write_text(f'<sdf version="{declared}"><model name="n">{links}</model></sdf>')
     old = '<model name="o"><link name="a"/><link name="b"/><joint name="j" type="revolute"><parent>a</parent>'
     joint = f"{old}<child>b</child><axis><xyz>1 0 0</xyz></axis></joint></model>"
     made = twinform.convert(
