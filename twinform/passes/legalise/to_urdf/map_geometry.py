@@ -111,7 +111,10 @@ def _map_shapes(
 def _replaced(one: AnyShaped, link: str, replacer: ShapeReplacer) -> tuple[AnyShaped, str | None]:
     """The part with a shape that URDF has, or the part itself and what to do."""
     shape = one.geometry.shape if one.geometry else None
-    if isinstance(shape, Empty | Mesh):
+    if isinstance(shape, Mesh):
+        kind = "stl" if (shape.uri or "").lower().endswith(".obj") else "obj"
+        return one, f"--passes 'convert-meshes{{to={kind}}}' writes the part to a file of its own"
+    if isinstance(shape, Empty):
         return one, None
     try:
         return replacer.replace(one, link), None
