@@ -14,6 +14,7 @@ from typing import Any, cast
 
 from twinform.diagnostics import DiagnosticSink, Location, rules
 from twinform.ir import Document, Format, Model, Pose
+from twinform.ir.foreign_joints import foreign_joints
 from twinform.ir.record import amend, maker
 from twinform.schemas import (
     Context,
@@ -70,7 +71,14 @@ def build_sdf(root: XmlElement, context: Context) -> Document:
 
 
 def check_extensions(document: Document, sink: DiagnosticSink) -> None:
-    """Check the `<gazebo>` elements of a URDF file by folding them as a conversion would."""
+    """Check the `<gazebo>` and `<drake:joint>` elements of a URDF file by reading them as a conversion would."""
+    if any(each.form is None for model in document.models for each in foreign_joints(model)):
+        from twinform.passes.legalise.to_sdf.read_drake_joints import ReadDrakeJoints  # noqa: PLC0415 - as below
+
+        found = DiagnosticSink(file=sink.file, strict=sink.strict)
+        ReadDrakeJoints.unchecked().run(document, found)
+        # that SDF lacks a joint of Drake is no fault of the file
+        sink.extend_new(each for each in found.diagnostics if each.rule is not rules.JOINT_TYPE_UNSUPPORTED)
     if not any(model.extensions for model in document.models):
         return
     from twinform.passes.legalise.to_sdf.fold_gazebo import FoldGazebo  # noqa: PLC0415 - most files have none
