@@ -99,7 +99,11 @@ class ModelTools:
         """Convert a model file to URDF or SDF, and list what the result does not express as the source did."""
         name, settings = self._named(path)
         place = self._place_of(output, to) if output else None
-        asked: RequestOptions = {"sdf_version": sdf_version or None, "passes": passes or None}
+        asked: RequestOptions = {
+            "sdf_version": sdf_version or None,
+            "passes": passes or None,
+            "side_files": place is not None,
+        }
         request, load_options = ConversionRequest.of(to, asked), settings.load_options
         if any(isinstance(step, FilesPass) for step in request.passes):
             raise ValueError("a pass makes files beside the result: run `twinform convert`")
@@ -107,14 +111,15 @@ class ModelTools:
             made = run_conversion(request, name, load_options)
         except CompileError as error:
             return _rows(name, error.diagnostics, settings)
+        outputs = Outputs([Path(name)])
         if place:
-            outputs = Outputs([Path(name)])
             outputs.add("output", place, made.text)
+            outputs.add_beside(place, made.side_files)
             outputs.write(load_options.search.seen)
         return {
             **_rows(name, made.diagnostics, settings),
             "ledger": json.loads(made.ledger.to_json()),
-            **({"written": [str(place)]} if place else {"text": made.text}),
+            **({"written": [str(each.path) for each, _ in outputs.texts]} if place else {"text": made.text}),
         }
 
     def diff(

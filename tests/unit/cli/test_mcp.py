@@ -106,6 +106,15 @@ def test_convert_answers_with_the_text_or_writes_it(root: Path) -> None:
     assert done["ledger"]["expressed"] > 0
 
 
+def test_a_mesh_that_stands_for_a_shape_is_written_with_the_result(root: Path) -> None:
+    egg = "<collision name='c'><geometry><ellipsoid/></geometry></collision>"
+    (root / "egg.sdf").write_text(f"<sdf version='1.11'><model name='m'><link name='a'>{egg}</link></model></sdf>")
+    assert "<mesh" not in _ask("convert", path="egg.sdf", to="urdf")["text"]
+    robot, mesh = _ask("convert", path="egg.sdf", to="urdf", output="made/egg.urdf")["written"]
+    assert mesh.removeprefix("made/") in (root / robot).read_text()
+    assert (root / mesh).is_file()
+
+
 @pytest.mark.usefixtures("root")
 def test_a_model_with_errors_is_answered_with_its_findings() -> None:
     for tool, given in (("convert", {"path": "arm.urdf", "to": "sdf"}), ("stats", {"path": "arm.urdf"})):
