@@ -79,9 +79,9 @@ class PutBack(VersionPass):
         if self.number < parse_version(self.source):  # parts that are gone stand for nothing else
             return True
         if isinstance(node, Model):
-            return same(self._lower_again(made, "models"), self._lower_again(without_carriers(node), "models"))
+            return same(self._lower_again(made, "models"), self._lower_again(node, "models"))
         if isinstance(node, World):
-            return same(self._lower_again(made, "worlds"), self._lower_again(without_carriers(node), "worlds"))
+            return same(self._lower_again(made, "worlds"), self._lower_again(node, "worlds"))
         return True
 
     def _lower_again(self, node: Node, field: str) -> Document:

@@ -4,7 +4,7 @@ from typing import ClassVar
 
 from twinform.diagnostics import DiagnosticSink, Fate
 from twinform.ir import Document, census_of
-from twinform.passes.carriers.carriers import NAMESPACE, PREFIX
+from twinform.passes.carriers.carriers import NAMESPACE, PREFIX, has_ours
 from twinform.passes.framework.pass_base import Pass
 from twinform.passes.shared.replaced_shapes import REPLACED
 
@@ -21,8 +21,9 @@ class SetVersion(Pass):
     def run(self, document: Document, sink: DiagnosticSink) -> Document:
         """The document in its new version."""
         namespaces = document.namespaces
-        has_ours = census_of(document) & REPLACED or any(entry.fate is Fate.CARRIED for entry in sink.entries)
-        if has_ours and (PREFIX, NAMESPACE) not in namespaces:
+        replaced = bool(census_of(document) & REPLACED) and has_ours(document)
+        carried = replaced or any(entry.fate is Fate.CARRIED for entry in sink.entries)
+        if carried and (PREFIX, NAMESPACE) not in namespaces:
             # The prefix is ours from here on, also where the file bound it to something else.
             namespaces = (*(pair for pair in namespaces if pair[0] != PREFIX), (PREFIX, NAMESPACE))
         return document.copy(version=self.version, namespaces=namespaces)

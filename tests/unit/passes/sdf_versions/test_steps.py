@@ -272,6 +272,16 @@ def test_what_an_older_version_cannot_express_comes_back(version: str, inside: s
     assert older.ledger.entries or older.document.version == version
 
 
+def test_noise_of_three_axes_that_only_an_older_version_could_gather_comes_back():
+    numbers = "<mean>0</mean><stddev>1</stddev><dynamic_bias_stddev>2</dynamic_bias_stddev>"
+    axes = "".join(f"<{axis}><noise type='gaussian'>{numbers}</noise></{axis}>" for axis in "xyz")
+    measured = (f"<{name}>{axes}</{name}>" for name in ("angular_velocity", "linear_acceleration"))
+    source = sdf("1.12", imu("".join(measured)))
+    again = rewrite(rewrite(source, "1.5").text, "1.12")
+    assert [each.rule.name for each in again.diagnostics if each.rule.name == "stale-carrier"] == []
+    assert first_difference(comparable(twinform.loads(source)), comparable(twinform.loads(again.text))) is None
+
+
 @pytest.mark.parametrize(("version", "inside"), [row[:2] for row in OLDER])
 def test_without_carriers_the_ledger_has_what_is_dropped(version: str, inside: str):
     made = rewrite(sdf("1.12", inside), version, carriers=False)
