@@ -1,6 +1,7 @@
 """Converters from URDF to USD in several releases, each in a folder and a process of its own."""
 
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -13,6 +14,8 @@ from testbed.engines.readers.installed import folder_of, version_in
 _SCRIPT = Path(__file__).with_name("run_converter.py")
 _SECONDS = 120
 _LONGEST = 160
+_ERROR = re.compile(r"^\w+Error: .*\Z", re.MULTILINE | re.DOTALL)
+"""The last line of a traceback, and all behind it."""
 
 
 class RefusedError(Exception):
@@ -54,8 +57,8 @@ class Converter:
             raise RefusedError(f"it came to no end within {_SECONDS} seconds") from error
         made = Path((done.stdout.splitlines() or [""])[-1])
         if done.returncode or not made.is_file():
-            said = (done.stderr.strip().splitlines() or [f"it ended with {done.returncode}"])[-1]
-            raise RefusedError(said.replace(str(urdf), "FILE")[:_LONGEST])
+            said = _ERROR.findall(done.stderr) or [f"it ended with {done.returncode}"]
+            raise RefusedError(" ".join(said[-1].split()).replace(str(urdf), "FILE")[:_LONGEST])
         return made
 
 

@@ -1,7 +1,6 @@
 """Losses planted in the stage of a robot: each takes away or changes one thing that a converter could have lost."""
 
 import importlib
-import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,6 +10,7 @@ from typing import Any
 from twinform.compiler.compare import Comparison
 
 Prim = Any
+_LEAST, _MOST = 1e-6, 1e9
 Change = Callable[[Prim, Random], bool]
 """Changes a prim, and says whether it could be changed in this way."""
 
@@ -72,26 +72,28 @@ def _name(prim: Prim) -> str:
     return str(prim.GetDisplayName() or prim.GetName())
 
 
-def _number(name: str, change: Callable[[float], float], least: float = 1e-6) -> Change:
-    """Change a number that is more than nothing."""
+def _number(name: str, change: Callable[[float], float], *, signed: bool = False) -> Change:
+    """Change a number that says something; `signed` ones do so below zero, too."""
 
     def apply(prim: Prim, _: Random) -> bool:
-        value = prim.GetAttribute(name).Get()
-        if value is None or not least < abs(value) < math.inf:
-            return False
-        return bool(prim.GetAttribute(name).Set(change(value)))
+        attribute = prim.GetAttribute(name)
+        return _says_something(attribute.Get(), signed=signed) and bool(attribute.Set(change(attribute.Get())))
 
     return apply
 
 
-def _without(name: str, least: float = 1e-6) -> Change:
-    """Remove a number that is more than nothing."""
+def _without(name: str, *, signed: bool = False) -> Change:
+    """Remove a number that says something."""
 
     def apply(prim: Prim, _: Random) -> bool:
-        value = prim.GetAttribute(name).Get()
-        return value is not None and least < abs(value) < math.inf and bool(prim.RemoveProperty(name))
+        return _says_something(prim.GetAttribute(name).Get(), signed=signed) and bool(prim.RemoveProperty(name))
 
     return apply
+
+
+def _says_something(value: float | None, *, signed: bool) -> bool:
+    """Whether a number is more than nothing, and less than stands for no limit in SDF."""
+    return value is not None and _LEAST < (abs(value) if signed else value) < _MOST
 
 
 def _moved(name: str, by: float) -> Change:
@@ -187,7 +189,7 @@ def _disabled(prim: Prim) -> bool:
 
 def _larger(prim: Prim) -> bool:
     attribute = prim.GetAttribute("size" if prim.GetTypeName() == "Cube" else "radius")
-    return bool(attribute) and bool(attribute.Set(attribute.Get() * 1.05))
+    return bool(attribute) and attribute.Get() > 0 and bool(attribute.Set(attribute.Get() * 1.05))
 
 
 def _ball(prim: Prim) -> bool:
@@ -217,10 +219,10 @@ KINDS: Mapping[str, Change] = {
     "speed limit removed": _without("newton:velocityLimit"),
     "speed limit changed": _number("newton:velocityLimit", lambda value: value * 1.05),
     "effort removed": _without("urdf:limit:effort"),
-    "lower limit changed": _number("physics:lowerLimit", lambda value: value * 1.01),
-    "upper limit changed": _number("physics:upperLimit", lambda value: value * 1.01),
-    "lower limit removed": _without("physics:lowerLimit"),
-    "upper limit removed": _without("physics:upperLimit"),
+    "lower limit changed": _number("physics:lowerLimit", lambda value: value * 1.01, signed=True),
+    "upper limit changed": _number("physics:upperLimit", lambda value: value * 1.01, signed=True),
+    "lower limit removed": _without("physics:lowerLimit", signed=True),
+    "upper limit removed": _without("physics:upperLimit", signed=True),
     "mass scaled": _number("physics:mass", lambda value: value * 1.01),
     "mass removed": _without("physics:mass"),
     "inertia scaled": _scale_inertia,
@@ -234,8 +236,8 @@ KINDS: Mapping[str, Change] = {
     "joint removed": _no_joint,
     "joint on another link": _another_parent,
     "mimic removed": _no_mimic,
-    "multiplier of a mimic changed": _number("newton:mimicCoef1", lambda value: value * 1.05),
-    "offset of a mimic changed": _number("newton:mimicCoef0", lambda value: value + 1),
+    "multiplier of a mimic changed": _number("newton:mimicCoef1", lambda value: value * 1.05, signed=True),
+    "offset of a mimic changed": _number("newton:mimicCoef0", lambda value: value + 1, signed=True),
     "no collider any more": _collision(_no_collider),
     "collision removed": _collision(_gone),
     "collision disabled": _collision(_disabled),
