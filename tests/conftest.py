@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from click.testing import CliRunner
+from click.testing import CliRunner, Result
 
 from testbed.corpus.files import CORPUS, MISSING
 from tests.profile import DEEP
@@ -21,7 +21,9 @@ _SELDOM = (20_000, 20, 100)
 
 if "mix_stderr" in inspect.signature(CliRunner).parameters:  # before click 8.2
     runner: Any = CliRunner
+    result: Any = Result
     runner.__init__ = partialmethod(CliRunner.__init__, mix_stderr=False)
+    result.output = property(lambda run: run.stdout + run.stderr)
 
 _TESTS = Path(__file__).parent
 _SLOW_ROOMS = frozenset(

@@ -31,7 +31,7 @@ def test_version(run: Run) -> None:
     assert run("--version").stdout == f"twinform, version {twinform.__version__}\n"
 
 
-@pytest.mark.parametrize(("word", "hint"), [("chek", " Did you mean 'check'?"), ("\x1b[31m", ""), ("c" * 2000, "")])
+@pytest.mark.parametrize(("word", "hint"), [("chek", " Did you mean 'check'?"), ("c\x1b[31m", ""), ("c" * 2000, "")])
 def test_a_misspelt_command_is_suggested(run: Run, word: str, hint: str) -> None:
     done = run(word)
     assert done.exit_code == 2

@@ -9,11 +9,14 @@ from typing import Any
 import pytest
 from click.testing import CliRunner
 
-from testbed.agent import Agent, agent
 from twinform.cli import main
 from twinform.cli.model_tools import TOOLS, ModelTools, answer
 from twinform.file_access import CEILING
 from twinform.server.checking import LARGEST
+
+pytest.importorskip("mcp", reason="mcp is not installed")
+
+from testbed.agent import Agent, agent
 
 _ARM = """\
 <robot name="arm">

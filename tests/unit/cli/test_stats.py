@@ -6,6 +6,7 @@ from typing import Any
 
 import pytest
 
+from twinform.installation import install_command
 from twinform.passes.mesh_jobs.job import MeshJob, MeshResult
 
 from .conftest import BROKEN, WRONG, Run
@@ -182,7 +183,7 @@ def test_without_trimesh_the_bytes_are_known(run: Run, monkeypatch: pytest.Monke
     monkeypatch.setattr("twinform.passes.mesh_jobs.child_process.do", do)
     costs = stats(run, _EXAMPLES / "arm.urdf")["models"][0]["meshes"]
     assert all(each["bytes"] and each["triangles"] is None for each in costs)
-    assert "twinform[meshes]" in costs[0]["problem"]
+    assert install_command("meshes") in costs[0]["problem"]
 
 
 def test_text_is_for_people(run: Run) -> None:

@@ -65,7 +65,7 @@ def read_bytes(
     except (OSError, ValueError) as error:
         if path.exists():
             note_failure()
-        reason = error.strerror if isinstance(error, OSError) else str(error)
+        reason = error.strerror if isinstance(error, OSError) else "no file can have such a name"
         hint = error.help if isinstance(error, OutsideError) else None
         raise _unreadable(sink, f"cannot read the file: {reason}", hint) from error
     if len(text) > limits.size:

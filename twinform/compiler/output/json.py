@@ -5,6 +5,7 @@ import re
 from inspect import getdoc
 from typing import Any, TypeGuard
 
+from twinform import ir
 from twinform.ir import Document, Format, Model, Node, node_values
 from twinform.lazy import lazy_pattern
 from twinform.schemas import in_order, repeated_fields, table
@@ -89,7 +90,9 @@ def json_schema_text() -> str:
     """The JSON Schema of documents: that of Pydantic for the nodes of the IR, and what JSON has beside their fields."""
     schema = Document.model_json_schema()
     schema["properties"]["$schema"] = {"description": "The version of this schema.", "const": IDENTIFIER}
-    for each in (schema, *schema["$defs"].values()):
+    for name, each in {Document.__name__: schema, **schema["$defs"]}.items():
+        if "properties" in each:  # Pydantic before 2.12 describes no dataclass
+            each.setdefault("description", getdoc(getattr(ir, name)))
         _describe(each)
     head = {"$schema": "https://json-schema.org/draft/2020-12/schema", "$id": IDENTIFIER}
     return json.dumps(head | schema, indent=1) + "\n"

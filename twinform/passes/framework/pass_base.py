@@ -37,6 +37,12 @@ class _Fields:
         return options_model(kind, Pass).model_fields
 
 
+def option_name(field_name: str, field: "FieldInfo") -> str:
+    """Return the name of an option as people write it."""
+    # Pydantic before 2.11 makes the aliases of a model when it is built, which is when options are validated
+    return field.alias or field_name.replace("_", "-")
+
+
 class Pass(_WithFields):
     """A step from IR to IR: a frozen object whose fields are its options.
 

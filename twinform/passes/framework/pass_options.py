@@ -8,7 +8,7 @@ from typing import cast, get_origin
 from pydantic import ValidationError
 from pydantic.fields import FieldInfo
 
-from twinform.passes.framework.pass_base import Pass
+from twinform.passes.framework.pass_base import Pass, option_name
 from twinform.passes.framework.pass_registry import UnknownPassError, find_pass, registered_passes
 from twinform.passes.framework.syntax import Scalar, Value
 
@@ -31,7 +31,7 @@ def build(name: str, options: Mapping[str, Value], kinds: Mapping[str, type[Pass
         OptionError: there is no such pass, or it refuses the options.
     """
     kind = (kinds or {}).get(name) or _installed(name)
-    fields = {field.alias or key: field for key, field in kind.model_fields.items()}
+    fields = {option_name(key, field): field for key, field in kind.model_fields.items()}
     try:
         return kind.model_validate({key: _fit(value, fields.get(key)) for key, value in options.items()})
     except ValidationError as error:
@@ -93,7 +93,7 @@ def chosen(step: Pass) -> Iterator[tuple[str, Value]]:
             continue
         words = option_value(value)
         alone = isinstance(words, list) and len(words) == 1 and takes_list(field) and words[0] is not None
-        yield field.alias or name, words[0] if isinstance(words, list) and alone else words
+        yield option_name(name, field), words[0] if isinstance(words, list) and alone else words
 
 
 def option_value(value: object) -> Value:

@@ -8,7 +8,7 @@ from types import NoneType, UnionType
 from typing import Annotated, Literal, NamedTuple, Union, cast, get_args, get_origin
 
 from twinform.diagnostics.generated_files import main
-from twinform.passes.framework.pass_base import Pass
+from twinform.passes.framework.pass_base import Pass, option_name
 from twinform.passes.framework.pass_options import option_value
 from twinform.passes.framework.pass_registry import OWN, registered_passes
 from twinform.passes.framework.syntax import Value, print_value
@@ -54,7 +54,8 @@ def options(kind: type[Pass]) -> Iterator[OptionPage]:
         default: object = field.get_default(call_default_factory=True, validated_data={}) if given else None
         value = option_value(default)
         words = _default(value) if given else "has to be given"
-        yield OptionPage(field.alias or name, _words(field.annotation), words, field.description or "", given, value)
+        written, kind_of_value = option_name(name, field), _words(field.annotation)
+        yield OptionPage(written, kind_of_value, words, field.description or "", given, value)
 
 
 def _default(value: Value) -> str:

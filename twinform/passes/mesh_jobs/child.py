@@ -37,8 +37,9 @@ _LIBRARIES = frozenset({"coacd", "collada", "fast_simplification", "numpy", "pxr
 # Readers import these when they meet certain files, and could not do so once the process is
 # confined.
 _NEEDED_LATER = (
-    "collada", "lxml.etree", "PIL.Image", "scipy.optimize", "scipy.spatial", "trimesh.exchange.load",
-    "unicodedata", "encodings.idna", "encodings.latin_1", "encodings.utf_16", "encodings.cp437",
+    "charset_normalizer", "collada", "lxml.etree", "PIL.Image", "scipy.optimize", "scipy.spatial",
+    "trimesh.exchange.load", "unicodedata", "encodings.idna", "encodings.latin_1", "encodings.utf_16",
+    "encodings.cp437",
 )  # fmt: skip
 _LONGEST = 500
 """Characters of a message of a library, which may repeat the file."""

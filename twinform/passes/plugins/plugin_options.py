@@ -18,7 +18,7 @@ from pydantic_core import InitErrorDetails, PydanticCustomError
 from twinform.ir import Element
 from twinform.lazy import lazy_pattern
 from twinform.passes.carriers.carriers import from_xml
-from twinform.passes.framework.pass_base import Pass
+from twinform.passes.framework.pass_base import Pass, option_name
 from twinform.passes.plugins.catalog import UnknownNameError, suggestion
 from twinform.passes.plugins.catalog_types import ParameterType, PluginKind, PluginParameter
 from twinform.passes.plugins.parameters import problem_of
@@ -260,7 +260,7 @@ def _selected_class(cls: P, options: Mapping[str, object]) -> P:
         made = _make_class(cls, word)
     except UnknownNameError as error:
         raise _option_error(cls.name, cls.selector, str(error), word) from error
-    known = {field.alias or key for key, field in made.model_fields.items()}
+    known = {option_name(key, field) for key, field in made.model_fields.items()}
     for option, value in options.items():
         if option.replace("_", "-") not in known:
             hint = suggestion(option, sorted(known), f"it has {', '.join(sorted(known))}")

@@ -9,6 +9,7 @@ import twinform
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document
 from twinform.passes import PipelineError, parse_pipeline
+from twinform.passes.framework.pass_base import option_name
 from twinform.passes.plugins.add_plugin import AddPlugin
 from twinform.passes.plugins.catalog import system, systems
 from twinform.passes.plugins.check_plugins import CheckPlugins
@@ -238,7 +239,7 @@ def test_python_may_call_it_with_the_options_of_the_system() -> None:
 
 
 def test_options_of_all_systems_have_names_of_their_own() -> None:
-    own = {field.alias for field in AddPlugin.model_fields.values()}
+    own = {option_name(name, field) for name, field in AddPlugin.model_fields.items()}
     for kind in systems().values():
         leaves = {path for path, row in kind.walk() if row.type != "element" or row.free}
         either = {path for path in leaves if (*path[:-1], path[-1].lstrip("@")) in leaves - {path}}

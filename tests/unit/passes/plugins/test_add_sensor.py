@@ -11,6 +11,7 @@ from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document, Sensor
 from twinform.ir.frames import FrameGraph
 from twinform.passes import PipelineError, parse_pipeline
+from twinform.passes.framework.pass_base import option_name
 from twinform.passes.plugins.add_elements import frames_of
 from twinform.passes.plugins.add_sensor import AddSensor, addable, settings_of
 from twinform.passes.plugins.catalog import sensor, sensors
@@ -275,7 +276,7 @@ def test_a_wrong_option_is_reported_at_its_place(text: str, complaint: str) -> N
 
 
 def test_settings_have_names_of_their_own() -> None:
-    own = {field.alias for field in AddSensor.model_fields.values()}
+    own = {option_name(name, field) for name, field in AddSensor.model_fields.items()}
     assert not [option for type_ in addable() for option in AddSensor.fields_for(type_) if option in own]
 
 

@@ -168,16 +168,14 @@ def test_a_finding_says_what_to_do_where_nothing_can_be_made_of_a_shape(parts: s
     assert kinds(twinform.convert(made.text.encode(), to="sdf")) == kinds(TEXT.format(parts))
 
 
-def test_masses_that_are_computed_of_shapes_stay(subtests: pytest.Subtests) -> None:
-    auto = "<inertial auto='true'/>"
-    for version in ("1.10", "1.7"):
-        with subtests.test(version):
-            exact = TEXT.format(auto + COLLISION + EGG.replace("'c'", "'e'"))
-            older = twinform.convert(exact.encode(), to="sdf", sdf_version=version)
-            through_urdf = twinform.convert(exact.encode(), to="urdf")
-            found = [each.document.models[0].links[0].inertial for each in (older, through_urdf)]
-            masses = [each and each.mass for each in found]
-            assert masses[0] == pytest.approx(masses[1])
+@pytest.mark.parametrize("version", ["1.10", "1.7"])
+def test_masses_that_are_computed_of_shapes_stay(version: str) -> None:
+    exact = TEXT.format("<inertial auto='true'/>" + COLLISION + EGG.replace("'c'", "'e'"))
+    older = twinform.convert(exact.encode(), to="sdf", sdf_version=version)
+    through_urdf = twinform.convert(exact.encode(), to="urdf")
+    found = [each.document.models[0].links[0].inertial for each in (older, through_urdf)]
+    masses = [each and each.mass for each in found]
+    assert masses[0] == pytest.approx(masses[1])
 
 
 def test_a_capsule_of_urdf_1_1_comes_back_from_1_0() -> None:
