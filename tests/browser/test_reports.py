@@ -58,7 +58,7 @@ def test_hostile_names_do_nothing(watched: Watched, tmp_path: Path) -> None:
     for button in page.locator("thead button").all():
         button.click()
     assert (watched.complaints, watched.outside) == ([], [])
-    assert page.title() == f"{EVIL} and {EVIL}: report"
+    assert page.title() == f"{EVIL} (A) compared with {EVIL} (B): report"
     assert page.locator("script").count() == 1
 
 
@@ -121,6 +121,15 @@ def test_nothing_is_wider_than_a_narrow_screen(watched: Watched, tmp_path: Path)
     watched.page.set_viewport_size({"width": 360, "height": 700})
     page = _open(watched, tmp_path, _CASES / "all_at_once.urdf", EXAMPLES / "rover.urdf")
     assert page.evaluate("() => document.documentElement.scrollWidth") <= 360
+
+
+def test_tables_scroll_on_a_narrow_screen_and_break_no_words(watched: Watched, tmp_path: Path) -> None:
+    watched.page.set_viewport_size({"width": 390, "height": 700})
+    page = _open(watched, tmp_path, EXAMPLES / "arm.urdf", EXAMPLES / "rover.urdf", view=None)
+    table = page.locator("#differences .scroller").first
+    assert table.evaluate("each => each.scrollWidth > each.clientWidth")
+    highest = table.evaluate("each => Math.max(...[...each.querySelectorAll('tr')].map(row => row.offsetHeight))")
+    assert highest < 150, "a sentence takes a few lines, and not one for each syllable"
 
 
 def test_names_are_readable_on_a_narrow_screen(watched: Watched, tmp_path: Path) -> None:

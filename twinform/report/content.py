@@ -1,8 +1,8 @@
 """The content of a report on one file or two, from the modules of the compiler that know each part."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import field
-from pathlib import Path
+from dataclasses import field, replace
+from pathlib import Path, PurePath
 
 from twinform.compiler.compare import USUAL, Comparison, ComparisonOptions, compare_files
 from twinform.compiler.conversion_error import CompileError
@@ -23,6 +23,7 @@ from twinform.diagnostics.reporters import FileFindings
 from twinform.ir import Document, Format
 from twinform.passes import PassError
 from twinform.report.markup import count
+from twinform.report.relative_paths import Shorten, relative_to_here, with_relative_paths
 from twinform.view import NotDrawn, StandaloneView, ViewerMissingError, ViewError, standalone_view
 
 View = Callable[[Document, Document | None, Comparison | None, SearchPath], StandaloneView]
@@ -98,6 +99,22 @@ class ModelReport:
         return (self.first,) if self.second is None else (self.first, self.second)
 
     @property
+    def files(self) -> tuple[str, ...]:
+        """The names of the files, with as many of their folders as tell two apart; A and B where nothing does."""
+        return _tell_apart([PurePath(each.name) for each in self.subjects])
+
+    @property
+    def robots(self) -> tuple[str, ...]:
+        """The name of the robot or world in each file, and the file."""
+        named = zip(self.subjects, self.files, strict=True)
+        return tuple(file if each.title == file else f"{each.title} ({file})" for each, file in named)
+
+    @property
+    def title(self) -> str:
+        """What the report is about."""
+        return " compared with ".join(self.robots)
+
+    @property
     def unreadable(self) -> bool:
         """Whether one of the files cannot be read."""
         return any(each.loaded.unreadable for each in self.subjects)
@@ -106,6 +123,14 @@ class ModelReport:
     def accepted(self) -> bool:
         """Whether no file has an error."""
         return all(each.loaded.accepted for each in self.subjects)
+
+
+def _tell_apart(paths: list[PurePath]) -> tuple[str, ...]:
+    for length in range(1, max(len(each.parts) for each in paths) + 1):
+        names = tuple(str(PurePath(*each.parts[-length:])) for each in paths)
+        if len({*names}) == len(paths):
+            return names
+    return tuple("AB"[: len(paths)])
 
 
 def make_page(
@@ -127,6 +152,8 @@ def build_report(
     view: View | None = make_page,
 ) -> ModelReport:
     """Report on a file or document, and on how it differs from a second one.
+
+    Paths are relative to the working directory: a report is for others, and names no folder of this machine.
 
     Args:
         first: the file or document.
@@ -154,7 +181,31 @@ def build_report(
             problem = str(error)
     converted = _convert(first, one, load_options, model)
     made, reason = _make_view(one, two, comparison, load_options.search, view)
-    return ModelReport(one, two, comparison, problem, converted, made.page, made.not_drawn, reason)
+    report = ModelReport(one, two, comparison, problem, converted, made.page, made.not_drawn, reason)
+    return _with_relative_paths(report, relative_to_here((each.name for each in report.subjects), load_options.search))
+
+
+def _with_relative_paths(report: ModelReport, shorten: Shorten) -> ModelReport:
+    first, second = (
+        each
+        and replace(
+            each,
+            name=shorten(each.name),
+            findings=with_relative_paths(each.findings, shorten),
+            statistics=with_relative_paths(each.statistics, shorten),
+        )
+        for each in (report.first, report.second)
+    )
+    return replace(
+        report,
+        first=first,
+        second=second,
+        comparison=with_relative_paths(report.comparison, shorten),
+        without_comparison=shorten(report.without_comparison),
+        converted=with_relative_paths(report.converted, shorten),
+        not_drawn=with_relative_paths(report.not_drawn, shorten),
+        without_view=shorten(report.without_view),
+    )
 
 
 def _examine(source: Input, name: str, load_options: LoadOptions, *, meshes: bool) -> ReportSubject:

@@ -42,7 +42,7 @@ def escaped(text: str) -> str:
 
 
 def _blocks(report: ModelReport, most: int) -> Iterator[str]:
-    yield f"## {' and '.join(escaped(each.title) for each in report.subjects)}"
+    yield f"## {escaped(report.title)}"
     yield ""
     for subject in report.subjects:
         yield f"* {escaped(subject.name)}: {subject.counts}"
@@ -51,7 +51,7 @@ def _blocks(report: ModelReport, most: int) -> Iterator[str]:
     elif report.second:
         yield f"* the files cannot be compared: {escaped(report.without_comparison)}"
     if report.converted:
-        yield f"* {outcome(report.converted)}"
+        yield f"* {outcome(report.converted, escaped(report.files[0]) if report.second else '')}"
     for block in (_differences, _findings, _losses, _numbers, _drawing):
         yield from block(report, most)
 
@@ -113,12 +113,13 @@ def _table(title: str, heads: Sequence[str], rows: Sequence[Sequence[str]], most
 
 def _numbers(report: ModelReport, _: int) -> Iterator[str]:
     """Yield a line for each model."""
-    for subject in report.subjects:
+    for subject, file in zip(report.subjects, report.files, strict=True):
         for number, model in enumerate(islice(subject.models, 10)):
+            name = f"{model.name} in {file}" if report.second else model.name
             yield "" if number == 0 else "  "
             freedom = f"{count(model.dof, 'degree')} of freedom"
             words = (count(model.links, "link"), count(sum(model.joints.values()), "joint"), freedom)
-            yield f"{escaped(model.name)}: {', '.join(words)}, {model.mass:.6g} kg"
+            yield f"{escaped(name)}: {', '.join(words)}, {model.mass:.6g} kg"
 
 
 def _drawing(report: ModelReport, most: int) -> Iterator[str]:

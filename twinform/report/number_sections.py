@@ -31,19 +31,23 @@ from twinform.report.markup import (
 
 def statistics(report: ModelReport) -> Markup | None:
     """Make a table of what `twinform stats` counts, with a column for each model of both files."""
-    columns = [(each.name, model) for each in report.subjects for model in each.models]
+    columns = [
+        (file, each) for file, subject in zip(report.files, report.subjects, strict=True) for each in subject.models
+    ]
     if not columns:
         return None
-    several = report.second is not None
-    heads = ("", *(f"{model.name} in {path}" if several else model.name for path, model in columns))
+    names_of_models = [f"{model.name} in {file}" if report.second else model.name for file, model in columns]
     facts = [dict(_facts(model)) for _, model in columns]
     names = [
         name for name in dict.fromkeys(name for each in facts for name in each) if any(each.get(name) for each in facts)
     ]
+    heads = ("", *names_of_models)
     made = table("Models in numbers", heads, ((name, *(each.get(name) for each in facts)) for name in names))
     measured = [each.statistics for each in report.subjects if each.statistics]
     words = (f"{each.path}: {each.format.upper()} {each.version or ''}".strip() for each in measured)
-    return join((element("p", breakable("; ".join(words))), made, *_advice(columns)))
+    return join(
+        (element("p", breakable("; ".join(words))), made, *_advice(names_of_models, [each for _, each in columns]))
+    )
 
 
 def _facts(model: ModelStatistics) -> Iterator[tuple[str, Part]]:
@@ -77,12 +81,12 @@ def _kinds(counts: Mapping[str, int]) -> str:
     return f"{sum(counts.values())}: {kinds}" if counts else ""
 
 
-def _advice(columns: list[tuple[str, ModelStatistics]]) -> Iterator[Markup]:
-    for _, model in columns:
+def _advice(names: Sequence[str], models: Sequence[ModelStatistics]) -> Iterator[Markup]:
+    for name, model in zip(names, models, strict=True):
         for each in model.cost.advice:
             yield element(
                 "p",
-                f"{model.name} has {each.reason}: ",
+                f"{name} has {each.reason}: ",
                 element("code", f"--passes '{each.passes}'"),
                 " makes it cheaper.",
             )

@@ -23,6 +23,7 @@ from twinform.package_files import package_files
 from twinform.report.content import WORDS, Converted, ModelReport, ReportSubject
 from twinform.report.markup import Markup, Part, breakable, count, element, fates, folded, image, join, place, table
 from twinform.report.number_sections import conversion, differences, masses, meshes, reach, statistics
+from twinform.view import NotDrawn
 
 MOST = 300
 """The most groups of a severity that are listed."""
@@ -224,19 +225,23 @@ _MAKES_SCRIPTS = (
     "const made=make(name,...more);if(String(name).toLowerCase()==='script')made.nonce='%s';return made}})()"
 )
 
+# The client of viser is told once whether it is dark, and the report is as the browser prefers it.
+_FOLLOWS_BROWSER = (
+    "<script>(window.__VISER_EMBED_CONFIG__??={}).darkMode=matchMedia('(prefers-color-scheme: dark)').matches</script>"
+)
+
 _REST = "base-uri 'none'; form-action 'none'"
 
 
 def view(report: ModelReport) -> Markup | None:
     """Show the page of the 3D view in a frame without rights, or say why there is none."""
     if report.view:
-        both = " and ".join(each.name for each in report.subjects)
         frame = element(
             "iframe",
             srcdoc=framed(report.view).page,
             sandbox="allow-scripts",
             loading="lazy",
-            title=f"3D view of {both}",
+            title=f"3D view of {' and '.join(report.robots)}",
             aria_describedby="view-in-words",
         )
         return join((frame, _list_missing_shapes(report), _describe_view(report)))
@@ -249,9 +254,13 @@ def _list_missing_shapes(report: ModelReport) -> Markup | None:
     if not missing:
         return None
     words = f"Wire boxes stand for {count(len(missing), 'shape')} that could not be drawn:"
-    rows = ((each.link, f"{each.role} {each.name}".rstrip(), each.problem) for each in missing)
+    rows = ((_link_of(each, report), f"{each.role} {each.name}".rstrip(), each.problem) for each in missing)
     listed = table("Shapes that are not drawn", ("Link", "Shape", "Reason"), rows)
     return join((element("p", words, class_="warning"), listed))
+
+
+def _link_of(shape: NotDrawn, report: ModelReport) -> str:
+    return f"{shape.link} in {report.files[shape.robot]}" if report.second else shape.link
 
 
 def _describe_view(report: ModelReport) -> Markup:
@@ -259,6 +268,8 @@ def _describe_view(report: ModelReport) -> Markup:
     summary = f"It shows {graph.summary()}, with every joint at zero. " if graph else ""
     if report.comparison and not report.comparison.same:
         summary = "The second robot is blue over the first one, and what differs is red, with every joint at zero. "
+    if report.second and not report.second.loaded.accepted:
+        summary += f"{report.files[1]} has errors and is not drawn. "
     return element(
         "p",
         f"{summary}Drag to turn, scroll to come nearer. The same parts are listed under ",
@@ -279,7 +290,8 @@ class Framed(NamedTuple):
 
 
 def framed(page: str) -> Framed:
-    """Give the scripts of a page a nonce, which they need to run in the frame."""
+    """Give the scripts of a page a nonce, which they need to run in the frame, and let it be dark if the browser is."""
+    page = page.replace("</head>", f"{_FOLLOWS_BROWSER}</head>", 1)
     nonce = b64encode(hashlib.sha256(page.encode()).digest(), b"-_").decode().rstrip("=")
     first = f'<script nonce="{nonce}">{_MAKES_SCRIPTS % nonce}</script>'
     return Framed(page.replace("<script", f'<script nonce="{nonce}"').replace("<head>", f"<head>{first}", 1), nonce)
@@ -302,23 +314,27 @@ def _hash(text: str) -> str:
 
 
 class Section(NamedTuple):
-    """A section: its anchor, its heading, and the function that makes its content, or None if there is none."""
+    """A section: its anchor, its heading, and the function that makes its content, or None if there is none.
+
+    `of_first` sections are about the first file alone.
+    """
 
     anchor: str
     title: str
     content: Callable[[ModelReport], Markup | None]
+    of_first: bool = False
 
 
 SECTIONS = (
     Section("differences", "Differences", differences),
     Section("view", "3D view", view),
     Section("findings", "Findings", findings),
-    Section("tree", "Links and joints", tree),
-    Section("conversion", "Conversion", conversion),
+    Section("tree", "Links and joints", tree, of_first=True),
+    Section("conversion", "Conversion", conversion, of_first=True),
     Section("statistics", "Statistics", statistics),
-    Section("masses", "Masses and inertias", masses),
-    Section("reach", "Reach", reach),
-    Section("meshes", "Meshes", meshes),
+    Section("masses", "Masses and inertias", masses, of_first=True),
+    Section("reach", "Reach", reach, of_first=True),
+    Section("meshes", "Meshes", meshes, of_first=True),
 )
 
 
@@ -326,7 +342,7 @@ def html(report: ModelReport) -> str:
     """Write a report as a page of HTML."""
     made = [(each, each.content(report)) for each in SECTIONS]
     sections = [(each, content) for each, content in made if content]
-    title = f"{' and '.join(each.title for each in report.subjects)}: report"
+    title = f"{report.title}: report"
     links = (element("li", element("a", each.title, href=f"#{each.anchor}")) for each, _ in sections)
     body = element(
         "body",
@@ -334,7 +350,7 @@ def html(report: ModelReport) -> str:
         element("header", element("h1", title), _files(report), element("ul", *_verdicts(report), class_="verdicts")),
         element("main",
             element("nav", element("ul", *links), aria_label="Sections"),
-            *(element("section", element("h2", each.title, id=f"{each.anchor}-title"), content,
+            *(element("section", element("h2", each.title, id=f"{each.anchor}-title"), _whose(each, report), content,
                       id=each.anchor, aria_labelledby=f"{each.anchor}-title") for each, content in sections),
             id="content",
         ),
@@ -342,6 +358,13 @@ def html(report: ModelReport) -> str:
         element("script", Markup(_data("report.js"))),
     )  # fmt: skip
     return f"<!DOCTYPE html>\n{element('html', _head(report, title), body, lang='en')}\n"
+
+
+def _whose(section: Section, report: ModelReport) -> Markup | None:
+    """Say which of two files a section is about, if it is about one."""
+    if section.of_first and report.second:
+        return element("p", breakable(f"Of {report.robots[0]}."), class_="quiet")
+    return None
 
 
 def _head(report: ModelReport, title: str) -> Markup:
@@ -367,15 +390,19 @@ def _verdicts(report: ModelReport) -> Iterator[Markup]:
     if report.comparison:
         yield element("li", summary(report.comparison), class_=None if report.comparison.same else "warning")
     if report.converted:
-        yield element("li", outcome(report.converted), class_=None if report.converted.ledger else "error")
+        yield element(
+            "li",
+            outcome(report.converted, report.files[0] if report.second else ""),
+            class_=None if report.converted.ledger else "error",
+        )
 
 
-def outcome(converted: Converted) -> str:
-    """Say in a line what becomes of the file in the other format."""
+def outcome(converted: Converted, file: str = "") -> str:
+    """Say in a line what becomes of a file in the other format; with `file` where there are several."""
     target, ledger = converted.target.upper(), converted.ledger
     if ledger is None:
-        return f"no {target} can be made of it: {count(len(converted.reasons), 'error')}"
-    return f"in {target}: {fates(ledger)}"
+        return f"no {target} can be made of {file or 'it'}: {count(len(converted.reasons), 'error')}"
+    return f"{file} in {target}: {fates(ledger)}".lstrip()
 
 
 def _files(report: ModelReport) -> Markup:

@@ -16,12 +16,13 @@ if TYPE_CHECKING:
 
 
 class NotDrawn(NamedTuple):
-    """A shape that is drawn as a box of wire instead, and why."""
+    """A shape that is drawn as a box of wire instead, and why; `robot` is 0 in the first document, 1 in the second."""
 
     link: str
     role: str
     name: str
     problem: str
+    robot: int = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,8 +85,11 @@ def standalone_view(
     try:
         folders = search or SearchPath.of()
         viewer.show([_make_subject(each, folders) for each in (first, second) if each is not None], comparison)
-        found = (problem for figure in viewer.figures for problem in figure.problems())
-        not_drawn = tuple(NotDrawn(link, shape.role, shape.name, problem) for link, shape, problem in found)
+        not_drawn = tuple(
+            NotDrawn(link, shape.role, shape.name, problem, robot)
+            for robot, figure in enumerate(viewer.figures)
+            for link, shape, problem in figure.problems()
+        )
         return StandaloneView(viewer.page(dark=dark), not_drawn)
     finally:
         viewer.stop()

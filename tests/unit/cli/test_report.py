@@ -27,8 +27,8 @@ def test_the_view_is_in_the_page(run: Run, folder: Path) -> None:
 
 def test_the_name_or_the_option_says_the_form(run: Run, folder: Path) -> None:
     assert run("report", folder / "good.urdf", "-o", folder / "a.md").exit_code == 0
-    assert (folder / "a.md").read_text(encoding="utf-8").startswith("## one\n")
-    assert run("report", folder / "good.urdf", "--format", "md").stdout.startswith("## one\n")
+    assert (folder / "a.md").read_text(encoding="utf-8").startswith("## one \\(good\\.urdf\\)\n")
+    assert run("report", folder / "good.urdf", "--format", "md").stdout.startswith("## one \\(good\\.urdf\\)\n")
 
 
 def test_two_files_are_compared(run: Run, folder: Path) -> None:

@@ -39,3 +39,15 @@ def hostile(name: str = EVIL, mass: float = 1) -> str:
 WRONG = """<robot name="broken"><link name="base"/>
 <joint name="j" type="fixed"><parent link="bse"/><child link="base"/></joint></robot>
 """
+
+
+def two_versions(folder: Path) -> tuple[Path, Path]:
+    """Write a robot twice, in files of one name: with a mesh that is not there, and then heavier."""
+    mesh = f'<visual><geometry><mesh filename="{folder.as_uri()}/before/gone.stl"/></geometry></visual>'
+    text = (EXAMPLES / "arm.urdf").read_text().replace("<visual>", f"{mesh}<visual>", 1)
+    made: list[Path] = []
+    for name, mass in (("before", "4"), ("after", "5")):
+        (folder / name).mkdir()
+        made.append(folder / name / "arm.urdf")
+        made[-1].write_text(text.replace('<mass value="4"/>', f'<mass value="{mass}"/>'))
+    return made[0], made[1]

@@ -1,12 +1,14 @@
 """Markdown: short, and read by a parser of it as nothing but what was meant."""
 
+from pathlib import Path
+
 from markdown_it import MarkdownIt
 from markdown_it.token import Token
 
 from twinform.report import build_report, markdown
 from twinform.report.markdown import LARGEST, escaped
 
-from .models import EVIL, EXAMPLES, WRONG, hostile
+from .models import EVIL, EXAMPLES, WRONG, hostile, two_versions
 
 _NAMES = (
     EVIL,
@@ -55,12 +57,20 @@ def test_github_makes_no_mention_issue_or_address_of_a_name() -> None:
 
 def test_the_verdict_comes_first_and_losses_are_listed() -> None:
     lines = markdown(build_report(EXAMPLES / "rover.urdf", EXAMPLES / "arm.urdf", view=None)).splitlines()
-    assert lines[0] == "## rover and arm"
+    assert lines[0] == "## rover \\(rover\\.urdf\\) compared with arm \\(arm\\.urdf\\)"
     assert "* different robots: 55 differences, 1 note" in lines
-    assert "* in SDF: 478 expressed, 40 carried, 1 approximated, 0 dropped" in lines
+    assert "* rover\\.urdf in SDF: 478 expressed, 40 carried, 1 approximated, 0 dropped" in lines
     assert "<details><summary>Differences: 55</summary>" in lines
     assert "```mermaid" in lines
-    assert "rover: 9 links, 8 joints, 4 degrees of freedom, 10.44 kg" in lines
+    assert "rover in rover\\.urdf: 9 links, 8 joints, 4 degrees of freedom, 10.44 kg" in lines
+
+
+def test_two_versions_of_a_robot_are_told_apart_and_no_folder_is_named(tmp_path: Path) -> None:
+    lines = markdown(build_report(*two_versions(tmp_path), view=None)).splitlines()
+    before, after = (escaped(f"{name}/arm.urdf") for name in ("before", "after"))
+    assert lines[0] == f"## arm \\({before}\\) compared with arm \\({after}\\)"
+    assert [line.partition(":")[0] for line in lines if "links," in line] == [f"arm in {before}", f"arm in {after}"]
+    assert escaped(str(tmp_path)) not in "\n".join(lines)
 
 
 def test_errors_are_in_it() -> None:

@@ -14,12 +14,13 @@ from twinform.cli import main
 from twinform.compiler import LoadOptions, check
 from twinform.compiler.compare import Comparison
 from twinform.compiler.resolve_uris import SearchPath
-from twinform.diagnostics import Fate
+from twinform.diagnostics import Fate, Location
 from twinform.ir import Document
 from twinform.report import build_report, html
+from twinform.report.relative_paths import relative_to_here, with_relative_paths
 from twinform.view import NotDrawn, StandaloneView, ViewerMissingError
 
-from .models import EVIL, EXAMPLES, PAGE, WRONG, hostile, no_page, stand_in
+from .models import EVIL, EXAMPLES, PAGE, WRONG, hostile, no_page, stand_in, two_versions
 
 pytestmark = pytest.mark.slow
 
@@ -100,7 +101,66 @@ def test_differences_have_values_amounts_and_places(tmp_path: Path) -> None:
     text = _page(EXAMPLES / "arm.urdf", other).text
     assert "different robots: 1 difference, 0 notes" in text
     assert re.search(r"inertial/mass\s*4 kg\s*5 kg\s*by 1 kg, 20 %", text)
-    assert f"{other}:25" in text
+    assert "heavier.urdf:25" in text
+
+
+def test_the_title_says_which_robots_of_which_files() -> None:
+    one, two = _page(EXAMPLES / "rover.urdf"), _page(EXAMPLES / "rover.urdf", EXAMPLES / "arm.urdf")
+    assert "rover (rover.urdf): report" in one.text
+    assert "rover (rover.urdf) compared with arm (arm.urdf): report" in two.text
+    same = (EXAMPLES / "arm.urdf").read_bytes()
+    assert "arm (A) compared with arm (B): report" in _page(same, same).text
+
+
+def test_two_versions_of_a_robot_are_told_apart(tmp_path: Path) -> None:
+    page = _page(*two_versions(tmp_path))
+    assert "arm in before/arm.urdf" in page.text
+    assert "arm in after/arm.urdf" in page.text
+    assert page.text.count("Of arm (before/arm.urdf).") >= 4
+    assert "before/arm.urdf in SDF: " in page.text
+
+
+def test_advice_says_which_of_two_files_it_is_about(tmp_path: Path) -> None:
+    wheel = '<collision><geometry><mesh filename="wheel.stl"/></geometry></collision>'
+    vertices = "".join(f"vertex {x} {y} 0\n" for x, y in ((0, 0), (1, 0), (0, 1)))
+    facets = f"facet normal 0 0 1\nouter loop\n{vertices}endloop\nendfacet\n" * 2000
+    for name in ("before", "after"):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "wheel.stl").write_text(f"solid a\n{facets}endsolid a\n")
+        (tmp_path / name / "leo.urdf").write_text(f'<robot name="leo"><link name="l">{wheel}</link></robot>')
+    text = _page(tmp_path / "before/leo.urdf", tmp_path / "after/leo.urdf").text
+    assert "leo in before/leo.urdf has " in text
+    assert "leo in after/leo.urdf has " in text
+
+
+@pytest.mark.parametrize("here", [".", "before", "/"])
+def test_no_folder_of_the_machine_is_in_a_report(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, here: str) -> None:
+    files = two_versions(tmp_path)
+    monkeypatch.chdir(tmp_path / here)
+    missing = NotDrawn("base", "visual", "", f"{str(files[0].parent / 'gone.stl')!r} is not found")
+    search = SearchPath.of([tmp_path / "meshes"])
+
+    def view(*_: object) -> StandaloneView:
+        return StandaloneView(PAGE, (missing,))
+
+    report = build_report(*files, LoadOptions(search=search), view=view)
+    text = _Page(html(report)).text
+    # the line of the file that a finding is about stands as it is written
+    said = "\n".join(line for line in text.splitlines() if not re.match(r"\d+ \| ", line.strip()))
+    assert str(tmp_path) not in said.replace(f'filename="{tmp_path.as_uri()}', "")
+    assert "arm.urdf:25" in text
+    assert "looked in" in text
+    assert "^^^" in text, "lines of a file are found by its real name"
+
+
+def test_paths_of_elements_are_whole_wherever_the_report_is_made() -> None:
+    shorten = relative_to_here([], SearchPath())
+    here = Path.cwd()
+    location = Location(str(here / "a.urdf"), 1, f"{here}/link")
+    assert with_relative_paths(location, shorten) == Location("a.urdf", 1, f"{here}/link")
+    nested = Path("..", here.name, "tests")
+    assert relative_to_here([str(nested / "a.urdf")], SearchPath())(f"{here.resolve()}/tests/x") == "tests/x"
+    assert shorten(f"looked in {here}, {here}/b and {here}-c") == f"looked in ., b and {here}-c"
 
 
 def test_a_file_with_errors_has_a_report_without_a_view() -> None:
@@ -256,6 +316,12 @@ def test_shapes_that_are_not_drawn_are_listed_with_the_reason() -> None:
     assert "visual palm" in page.text
     assert "there is no 'gone.stl'" in page.text
     assert "Wire boxes" not in _page(EXAMPLES / "arm.urdf").text
+    two = _Page(html(build_report(EXAMPLES / "arm.urdf", EXAMPLES / "rover.urdf", view=view)))
+    assert "hand in arm.urdf" in two.text
+
+
+def test_a_second_file_that_is_not_drawn_is_named() -> None:
+    assert "<bytes> has errors and is not drawn." in _page(EXAMPLES / "arm.urdf", WRONG.encode()).text
 
 
 @pytest.mark.parametrize("name", ["robot.urdf", "robot.urdf.xacro"])
@@ -267,5 +333,5 @@ def test_meshes_are_found_from_the_file_or_what_xacro_makes_of_it(name: str, tmp
     (tmp_path / name).write_text(
         f'<robot name="r"><link name="l">{mesh.format("here")}{mesh.format("gone")}</link></robot>'
     )
-    report = build_report(tmp_path / name)
-    assert [each.name for each in report.not_drawn] == ["gone"]
+    report = build_report(tmp_path / name, (tmp_path / name).read_bytes())
+    assert [(each.name, each.robot) for each in report.not_drawn] == [("gone", 0), ("here", 1), ("gone", 1)]
