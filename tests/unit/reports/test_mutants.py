@@ -2,6 +2,8 @@
 
 import pytest
 
+pytest.importorskip("mutmut", reason="mutmut is not installed")
+
 from reports.mistakes_found.mutants import is_assertion, is_wording
 
 
