@@ -168,7 +168,6 @@ _LOOKED_AT = (
     "reference/rules/dangling-link",
     "reference/profiles/drake",
     "reference/who_reads_what/index",
-    "reference/who_reads_what/joints",
     "evidence/speed",
 )
 """A page of each kind."""
