@@ -10,7 +10,7 @@ from pathlib import Path
 from click.testing import CliRunner
 from pygments import highlight
 from pygments.formatters import HtmlFormatter
-from pygments.lexers import get_lexer_by_name
+from pygments.lexers import get_lexer_by_name  # pyright: ignore[reportUnknownVariableType]
 
 from twinform.cli import main as twinform
 

@@ -30,7 +30,7 @@ COMMANDS: Mapping[str, str] = {
     "fuel": "Fill the local cache of Gazebo Fuel.",
     "reproduce": "Run a pass again that failed.",
     "passes": "List the passes, or print the page of one.",
-    "explain": "Print the page of a rule, or list all rules.",
+    "explain": "Print the page of a rule, or who reads a feature; list all rules.",
     "schema": "Print the schema of URDF, SDF, JSON or the configuration.",
     "clean": "Delete the results of earlier runs of check and format.",
     "lsp": "Be the language server of an editor.",

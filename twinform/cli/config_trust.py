@@ -46,6 +46,7 @@ HELD: Mapping[str, Hold] = {
     "ignore": "nothing to hold",
     "max-size": "lowers a limit",
     "max-tags": "lowers a limit",
+    "mesh-prefix": "nothing to hold",  # the beginning of URIs in the result
     "passes": "known passes",
     "paths": "inside its folder",
     "pipelines": "known passes",
@@ -53,6 +54,7 @@ HELD: Mapping[str, Hold] = {
     "read-carriers": "nothing to hold",
     "sdf-version": "nothing to hold",
     "select": "nothing to hold",
+    "shape-error": "nothing to hold",  # meshes are limited, however small it is
     "strict": "nothing to hold",
     "urdf-version": "nothing to hold",
 }

@@ -27,7 +27,10 @@ EXAMPLES = {
 @click.command("explain", cls=Command, examples=EXAMPLES)
 @click.argument("name", metavar="[RULE]", required=False, shell_complete=rule_names)
 def command(name: str | None) -> None:
-    """Print the page of a rule, or list all rules; of a feature such as `joints/mimic`, say which programs read it."""
+    """Print the page of a rule, or who reads a feature; list all rules.
+
+    A feature is one such as `joints/mimic`, which the help of a finding names.
+    """
     if name is not None and "/" in name:
         print_text(_describe_feature(name))
         return

@@ -239,8 +239,8 @@ def _lone_links(root: RawNode) -> Fact:
 
 def _circular_mimics(root: RawNode) -> Fact:
     """Joints that follow themselves, directly or through others, and joints that follow those."""
-    leaders = {joint.name: joint.value("mimic", "joint") or "" for joint in root.all("joint")}
-    circular = _lead_into_circles(leaders)
+    leaders = ((joint.name, joint.value("mimic", "joint")) for joint in root.all("joint"))
+    circular = _lead_into_circles({name: leader for name, leader in leaders if leader})
     for joint in root.all("joint"):
         if joint.name in circular:
             yield joint, f"joint {joint.name!r} follows itself, or one that does"

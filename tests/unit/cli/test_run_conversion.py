@@ -185,7 +185,7 @@ def test_a_file_that_somebody_changes_meanwhile_is_not_written(
         ("r.sdf --into r.sdf", "takes a file of the other format"),
         ("r.sdf --base r.sdf", "--base is for --into"),
         ("r.sdf --into r.urdf --base none.sdf", "none.sdf is no file"),
-        ("r.sdf --into r.urdf -o x.urdf", "leave -o, --in-place, --to and --passes out"),
+        ("r.sdf --into r.urdf -o x.urdf", "leave -o, --in-place, --to, --passes and --depfile out"),
         ("r.sdf r.urdf --into r.urdf", "--into takes one input"),
         ("- --into r.urdf", "is no file that could have been made of r.urdf"),
     ],

@@ -2,8 +2,7 @@
 
 import pytest
 
-from generators.libsdformat_codes import CODES, UNSEEN, Row, announced, page
-from testbed.corpus.files import ROOT
+from generators.libsdformat_codes import CODES, UNSEEN, Row, announced
 from twinform.diagnostics import catalog
 
 WITHOUT_CASE = {"unreadable-file"}
@@ -20,7 +19,3 @@ def test_each_has_rules_with_cases_or_a_reason(row: Row):
 
 def test_there_are_43_codes():
     assert len({row.title for row in CODES}) == 43
-
-
-def test_the_committed_page_is_up_to_date():
-    assert (ROOT / "docs/reference/libsdformat_codes.md").read_text(encoding="utf-8") == page()

@@ -126,3 +126,12 @@ def test_what_else_loaders_make_of_a_robot(consumer: str, parts: tuple[str, ...]
 def test_places_that_are_none_end_nothing(consumer: str, text: str) -> None:
     fixed = _joint("j", "a", "b", "fixed").replace("<parent", f'<origin xyz="0 0 0" rpy="{text}"/><parent')
     assert _effects(consumer, _A, _B, fixed) <= set(Effect)
+
+
+def test_a_joint_without_a_name_is_followed_by_none_that_follows_nothing() -> None:
+    assert _effects("newton", _A, _B, _C, _joint("", "a", "b"), _joint("k", "b", "c")) == set()
+
+
+def test_a_joint_of_a_type_that_nobody_knows_has_an_axis_of_numbers() -> None:
+    joint = _joint("j", "a", "b", "").replace('xyz="1 0 0"', 'xyz="x 0 1"')
+    assert Effect.REFUSES in _effects("yourdfpy", _A, _B, joint)

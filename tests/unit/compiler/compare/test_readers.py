@@ -15,7 +15,13 @@ from twinform.ir import Document, Joint, Link, Model, World
 from twinform.ir.transform import Transform
 
 _CASES = Path(__file__).parents[3] / "cases/convert"
-_RESULTS = sorted(each for each in _CASES.glob("*.expected.*") if b"urn:twinform:1" in each.read_bytes())
+# The parts of a capsule are what the capsule is, for everybody: without their marks nothing says so.
+_CAPSULES = "replaced_shapes"
+_RESULTS = sorted(
+    each
+    for each in _CASES.glob("*.expected.*")
+    if b"urn:twinform:1" in each.read_bytes() and not each.name.startswith(_CAPSULES)
+)
 _FOR_GAZEBO = ("link", "joint", "frame", "model")
 
 
