@@ -23,6 +23,11 @@ _XACRO = """<robot name="arm" xmlns:xacro="http://www.ros.org/wiki/xacro">
   <xacro:arg name="prefix" default=""/><link name="$(arg prefix)base"/>
 </robot>
 """
+_USD = """#usda 1.0
+def Xform "arm" (prepend apiSchemas = ["PhysicsArticulationRootAPI"]) {
+  def Xform "base" (prepend apiSchemas = ["PhysicsRigidBodyAPI"]) {}
+}
+"""
 _CONFIG = '<model><name>crate</name><sdf version="1.11">model.sdf</sdf></model>'
 _NOT_RUN = {
     "lsp": "it waits for an editor",
@@ -71,6 +76,7 @@ def files(tmp_path_factory: pytest.TempPathFactory) -> Path:
         (made / name).parent.mkdir(exist_ok=True)
         (made / name).write_text(GOOD)
     (made / "arm.urdf.xacro").write_text(_XACRO)
+    (made / "robot.usda").write_text(_USD)
     sdf = twinform.convert(GOOD.encode(), to="sdf").text
     (made / "robot.sdf").write_text(sdf)
     for crate in (made / "crate", made / "models/crate"):
