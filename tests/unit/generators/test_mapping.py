@@ -1,25 +1,16 @@
-"""The page of the mapping: it is current, and its notes are about things that there are."""
+"""The notes of the mapping are about things that there are."""
 
 import pytest
 
 from generators.mapping.file_rows import targets, unreachable
 from generators.mapping.measure import CASES
 from generators.mapping.notes import Note, destinations, notes
-from generators.mapping.page import page
-from testbed.corpus.files import ROOT
 from twinform.diagnostics.catalog import catalog
 from twinform.server.mapping import FORMATS, FormatName, field_of, rows, sections
-
-PAGE = ROOT / "docs/explanation/mapping.md"
 
 
 def _known(format: FormatName) -> set[str]:
     return {*sections(format), *(row.path for row in rows(format))}
-
-
-@pytest.mark.slow
-def test_the_page_is_what_the_generator_writes() -> None:
-    assert PAGE.read_text(encoding="utf-8") == page()
 
 
 @pytest.mark.parametrize("note", notes(), ids=lambda note: note.about[0])
