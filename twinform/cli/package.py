@@ -226,4 +226,5 @@ def _write(built: Built, packaging: Packaging) -> None:
 def _size(package: Package) -> str:
     """Say how many files are in a package, and how large they are."""
     sizes = [len(each) if isinstance(each, bytes) else each.stat().st_size for each in package.files.values()]
-    return f"{plural(len(sizes), 'file')}, {sum(sizes) / 1e6:.1f} MB"
+    size = f"{sum(sizes) / 1e6:.1f} MB" if sum(sizes) >= 1e5 else f"{sum(sizes) / 1e3:.0f} kB"
+    return f"{plural(len(sizes), 'file')}, {size}"

@@ -5,8 +5,11 @@ import pytest
 from generators.mapping.file_rows import targets, unreachable
 from generators.mapping.measure import CASES
 from generators.mapping.notes import Note, destinations, notes
+from testbed.corpus.files import ROOT
 from twinform.diagnostics.catalog import catalog
 from twinform.server.mapping import FORMATS, FormatName, field_of, rows, sections
+
+PAGE = ROOT / "docs/explanation/mapping.md"
 
 
 def _known(format: FormatName) -> set[str]:
