@@ -52,6 +52,7 @@ OTHERS = {
     "passes/meshes/mesh_pass.py": "results of its own, in the cache of the user",
     "passes/plugins/catalog.py": DATA,
     "passes/plugins/add_sensor.py": DATA,
+    "profiles/features.py": DATA,
     "profiles/profile.py": DATA,
     "profiles/reads_tables.py": DATA,
     "report/report_page.py": DATA,
