@@ -109,7 +109,18 @@ def _parts(robot: RobotRow) -> int:
 
 def _is_listed(found: Difference, ledger: Ledger) -> bool:
     """Whether an entry of the ledger is about the value, about something in it, or about the part around it."""
-    return any(_covers(entry.location.path, found) or _is_followed(entry, found) for entry in ledger.entries)
+    return any(
+        _covers(entry.location.path, found) or _is_followed(entry, found) or _is_replaced(entry, found)
+        for entry in ledger.entries
+    )
+
+
+def _is_replaced(entry: LedgerEntry, found: Difference) -> bool:
+    """Whether a shape of the URDF stands for one that URDF lacks: its name, as libsdformat makes it, has that one's."""
+    names = _NAMED.split(entry.location.path)[1::2]
+    if entry.rule.name != "replaced-shape" or len(names) < 2 or len(found.parts) < 2:
+        return False
+    return found.parts[-2].endswith(names[-2]) and names[-1] in found.parts[-1]
 
 
 def _is_followed(entry: LedgerEntry, found: Difference) -> bool:
