@@ -120,6 +120,8 @@ def _is_replaced(entry: LedgerEntry, found: Difference) -> bool:
     names = _NAMED.split(entry.location.path)[1::2]
     if entry.rule.name != "replaced-shape" or len(names) < 2 or len(found.parts) < 2:
         return False
+    if found.kind == "sensor":  # one of contacts feels the ends of a capsule by their own names
+        return found.path.startswith("/sensor/contact/collision")
     return found.parts[-2].endswith(names[-2]) and names[-1] in found.parts[-1]
 
 
