@@ -391,7 +391,9 @@ def run_split(source: InputSource, to: Target, options: Options, folder: Path, o
         return FINDINGS
     _add_files(result, folder, options.ledger, outputs)
     if len(result.files) == 1:
-        outputs.news.append("no model stands in the file itself; --expand-includes makes files of what it includes")
+        outputs.news.append(
+            "the file has no model of its own; --expand-includes also writes the models that it includes"
+        )
     outputs.news.append(f"{plural(len(result.files), 'file')}: {summary(result.ledger)}")
     return 0
 

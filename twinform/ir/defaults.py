@@ -27,6 +27,8 @@ UNLIMITED_STRENGTH = -1.0
 MULTIPLIER = 1.0
 """How far a joint turns for each radian of the one that it mimics."""
 GEARBOX_RATIO = 1.0
+GRAVITY = 9.8
+"""How strongly gravity pulls against z in a world that says nothing of it, m/s^2 (sdf/world.sdf)."""
 SCREW_THREAD_PITCH = 1.0
 """In m per turn."""
 

@@ -1,28 +1,24 @@
 """The tab that measures: how far links are from each other, and what joints have to hold against gravity."""
 
 import math
-from collections.abc import Callable, Iterable, Sequence
-from dataclasses import field
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
 from twinform.compiler.graph.graph import shortened
-from twinform.compiler.kinematics import Positions
+from twinform.compiler.kinematics import Degree, Positions
 from twinform.dataclass import dataclass
+from twinform.ir.defaults import GRAVITY
 from twinform.ir.transform import Transform
 from twinform.view import words
 from twinform.view.figure import Figure
 from twinform.view.joint_controls import Key, slider_range
 
-_GRAVITY = 9.8
-"""The default of SDF, m/s^2, against z of the world."""
 _SAMPLES = 31
 _MOST_LINKS = 60
 """With more links than these the curve is drawn anew for another joint, and not with each motion."""
 _STEP = 1e-5
 """Half of the way over which the energy is differentiated, rad or m."""
-_WIDTH, _HEIGHT = 320, 150
-"""Of the curve, in pixels."""
-_CURVE = """<svg viewBox="-12 -16 {width} {height}" role="img" aria-label="{label}" style="margin:0.5em;width:90%">
+_CURVE = """<svg viewBox="-12 -16 320 150" role="img" aria-label="{label}" style="margin:0.5em;width:90%">
 <path d="M0 {zero:.1f}H300" stroke="gray" stroke-width="1"/>
 <polyline points="{points}" fill="none" stroke="rgb(200, 90, 30)" stroke-width="2"/>
 <g fill="currentColor" font-size="11"><text x="0" y="-5">{label}</text>
@@ -47,7 +43,7 @@ def gravity_effort(figure: Figure, joint: Key, positions: Positions) -> float:
     def energy(position: float) -> float:
         poses = figure.kinematics.poses({**positions, joint: position})
         solids = ((link.mass, poses[link.name]) for link in figure.scene.links if link.mass)
-        return math.fsum(_GRAVITY * mass.mass * pose.apply(mass.center)[2] for mass, pose in solids)
+        return sum(GRAVITY * mass.mass * pose.apply(mass.center)[2] for mass, pose in solids)
 
     at = positions.get(joint, 0.0)
     return (energy(at + _STEP) - energy(at - _STEP)) / (2 * _STEP)
@@ -64,9 +60,7 @@ def curve(positions: Sequence[float], efforts: Sequence[float]) -> str:
         for at, height in zip(positions, heights[1:], strict=True)
     )
     label = f"from {_numbers([min(efforts)])} to {_numbers([max(efforts)])}"
-    return _CURVE.format(
-        width=_WIDTH, height=_HEIGHT, label=label, zero=heights[0], points=points, lower=lower, upper=upper
-    )
+    return _CURVE.format(label=label, zero=heights[0], points=points, lower=lower, upper=upper)
 
 
 @dataclass(slots=True)
@@ -76,7 +70,6 @@ class Measuring:
     gui: Any
     figure: Figure
     positions: Positions
-    _updates: list[Callable[[], None]] = field(default_factory=list[Callable[[], None]], init=False)
 
     def build(self) -> None:
         """Add all controls to the panel."""
@@ -90,14 +83,9 @@ class Measuring:
             if degree.leader is None and slider_range(degree)[0] < slider_range(degree)[1]
         }
         if joints and any(link.mass for link in self.figure.scene.links):
-            self._add_efforts(list(joints), {name: slider_range(degree) for name, degree in joints.items()})
-        self.figure.watchers.append(self._update)
+            self._add_efforts(joints)
 
-    def _update(self) -> None:
-        for update in self._updates:
-            update()
-
-    def _follow(self, controls: Iterable[Any], update: Callable[[], None]) -> None:
+    def _keep_current(self, controls: Iterable[Any], update: Callable[[], None]) -> None:
         """Run an update now, when a control is changed and when a joint is moved."""
 
         def changed(event: object) -> None:
@@ -106,7 +94,7 @@ class Measuring:
 
         for control in controls:
             control.on_update(changed)
-        self._updates.append(update)
+        self.figure.watchers.append(update)
         update()
 
     def _add_distance(self, links: Sequence[str]) -> None:
@@ -119,28 +107,27 @@ class Measuring:
             a, b = (self.figure.poses[names[each.value]] for each in (first, second))
             said.content = "".join(map(words.paragraph, lines_between(a, b)))
 
-        self._follow((first, second), update)
+        self._keep_current((first, second), update)
 
-    def _add_efforts(self, joints: Sequence[str], ranges: dict[str, tuple[float, float]]) -> None:
+    def _add_efforts(self, joints: Mapping[str, Degree]) -> None:
         names = {shortened(name): name for name in joints}
         chosen = self.gui.add_dropdown(
             "Effort of", tuple(names), hint="What it holds against gravity where it is moved"
         )
         said = self.gui.add_html("")
         plot = self.gui.add_html("")
-
         plotted: list[Key] = []
 
         def update() -> None:
             key = (names[chosen.value], 0)
-            here = gravity_effort(self.figure, key, self.positions)
-            said.content = words.paragraph(f"gravity needs {here:.4g} N m here (N where it slides)")
+            degree, here = joints[key[0]], gravity_effort(self.figure, key, self.positions)
+            said.content = words.paragraph(f"it holds {here:.4g} {'N' if degree.slides else 'N m'} here")
             if len(self.figure.scene.links) > _MOST_LINKS and plotted == [key]:
                 return
             plotted[:] = [key]
-            lower, upper = ranges[key[0]]
+            lower, upper = slider_range(degree)
             positions = [lower + (upper - lower) * number / (_SAMPLES - 1) for number in range(_SAMPLES)]
             efforts = [gravity_effort(self.figure, key, {**self.positions, key: each}) for each in positions]
             plot.content = curve(positions, efforts)
 
-        self._follow((chosen,), update)
+        self._keep_current((chosen,), update)

@@ -54,5 +54,5 @@ def test_a_world_of_includes_alone_says_what_would_split_them(run: Run, tmp_path
     (tmp_path / "w.sdf").write_text(f'<sdf version="1.9"><world name="w">{include}</world></sdf>')
     done = run("convert", tmp_path / "w.sdf", "--split", "-o", tmp_path / "out")
     assert done.exit_code == 0
-    assert "no model stands in the file itself; --expand-includes makes files of what it includes" in done.stderr
+    assert "the file has no model of its own; --expand-includes also writes the models that it includes" in done.stderr
     assert "1 file: expressed" in done.stderr

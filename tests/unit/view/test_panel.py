@@ -10,7 +10,7 @@ from tests.browser.test_view import ARM
 from twinform.compiler import LoadOptions
 from twinform.view import read_subject
 from twinform.view.figure import Figure
-from twinform.view.measuring import gravity_effort, lines_between
+from twinform.view.measuring import curve, gravity_effort, lines_between
 from twinform.view.panel import Drag, drag_of
 from twinform.view.triangles import MeshDrawings
 
@@ -79,3 +79,15 @@ def test_a_pendulum_pulls_with_the_sine_of_its_angle():
     swing.move({("j", 0): math.pi / 2})
     distance, place, turned = lines_between(swing.poses["a"], swing.poses["b"])
     assert (distance, place, turned) == ("distance 1 m", "xyz 1 0 0 m", "rpy 0 90 0 degrees")
+
+
+def test_masses_beyond_all_measure_have_an_effort_that_is_no_number():
+    moments = '<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/>'
+    mass = f'<inertial><origin xyz="0 0 {{}}"/><mass value="1e308"/>{moments}</inertial>'
+    text = f"""<robot name="r"><link name="a">{mass.format(1e9)}</link><link name="b">{mass.format(-1e9)}</link>
+      <joint name="j" type="continuous"><parent link="a"/><child link="b"/></joint></robot>"""
+    subject, _ = read_subject(text.encode(), LoadOptions())
+    assert subject is not None
+    effort = gravity_effort(Figure(_Nothing(), "/1/A", subject.scene, MeshDrawings()), ("j", 0), {})
+    assert math.isnan(effort)
+    assert "nan" in curve([0.0, 1.0], [effort, effort])

@@ -8,10 +8,10 @@ from twinform.compiler.mistakes.scale_checks import is_made_up
 from twinform.compiler.mistakes.tipping_check import report_tipping
 from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Document, Format, Joint, Model, Vector3
+from twinform.ir.defaults import GRAVITY
 from twinform.ir.motion import turn
 from twinform.ir.transform import Transform, cross, dot, minus
 
-_GRAVITY = 9.8
 _MOST_LINKS = 200
 _MARGIN = 1.5
 """How much more than the effort a joint has to need: figures of masses and efforts are rounded."""
@@ -49,7 +49,7 @@ def _report_weak_joints(model: Model, tree: PlacedTree, sink: DiagnosticSink) ->
     most = _moments(tree)
     for joint in model.joints:
         effort, moment = _effort(joint), most.get(joint.child or "", 0.0)
-        if effort is None or _GRAVITY * moment <= effort * _MARGIN or abs(tree.axis(joint)[2]) > _UPRIGHT:
+        if effort is None or GRAVITY * moment <= effort * _MARGIN or abs(tree.axis(joint)[2]) > _UPRIGHT:
             continue
         if _stands(tree, joint):
             continue
@@ -70,7 +70,7 @@ def _report(joint: Joint, effort: float, needed: float, mass: float, sink: Diagn
     limit = joint.axis.limit if joint.axis else None
     message = (
         f"joint {joint.name!r} holds {effort:g} N m, and gravity needs up to {needed:.3g} N m of it: "
-        f"it carries {mass:.3g} kg, {needed / _GRAVITY / mass:.2g} m away"
+        f"it carries {mass:.3g} kg, {needed / GRAVITY / mass:.2g} m away"
     )
     help = "write the effort of the actuator with its gears, or correct the masses that it carries"
     where = (limit or joint).location.at("@effort")
@@ -149,7 +149,7 @@ class _Branch:
         # the torque at an angle is a sum of its cosine and its sine
         level, raised = dot(across, _UP), dot(cross(self.axis, across), _UP)
         angles = [*self.limits, *_peaks(math.atan2(raised, level), *self.limits)]
-        return _GRAVITY * max(abs(math.cos(each) * level + math.sin(each) * raised) for each in angles)
+        return GRAVITY * max(abs(math.cos(each) * level + math.sin(each) * raised) for each in angles)
 
 
 def _positions(joint: Joint) -> Sequence[float]:

@@ -22,7 +22,7 @@ class CloseLoops(ModelPass):
     joints, which are annotated with what only the element says; those that no joint of SDF is are carried: their ends
     do not meet where all joints are at zero, or they say more. So is a joint to a second parent that has the link
     elsewhere than the first one; others are such joints already.
-    Never touches: else.
+    Never touches: any other element or joint.
     Diagnostics: `open-loop` for what is carried, or dropped with `carriers` false.
     """
 
@@ -34,13 +34,13 @@ class CloseLoops(ModelPass):
         loops = [each for each in foreign_joints(model) if each.form is not None]
         if sink.has_errors:
             return model
-        model = _leave_open(model, Keeper(sink, self.carriers))
+        keeper = Keeper(sink, self.carriers)
+        model = _leave_open(model, keeper)
         if not loops:
             return model
         annotated = self.carriers and not came_from(model, Format.SDF)
         links = frozenset(link.name for link in model.links)
         taken = {node.name for node in (*model.links, *model.joints, *(each.joint for each in loops))}
-        keeper = Keeper(sink, self.carriers)
         graph, fixed = FrameGraph(model), _fixed_groups(model)
         joints, left, between = list(model.joints), list[Opaque](), Counter[str]()
         for each in loops:

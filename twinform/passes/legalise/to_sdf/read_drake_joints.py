@@ -21,7 +21,7 @@ class ReadDrakeJoints(ModelPass):
 
     Changes: 1. a ball, screw, universal or planar joint is one of SDF and of URDF, annotated as Drake's; 2. a universal
     joint turns about x and then about y of its frame, whatever axis it has: Drake reads none.
-    Never touches: else.
+    Never touches: any other element or joint.
     Diagnostics: `joint-type-unsupported` for `curvilinear` and for types that Drake lacks; what reading a joint finds.
     """
 
