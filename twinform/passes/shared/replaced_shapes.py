@@ -88,6 +88,9 @@ class ShapeReplacer:
         message = f"{what} becomes a mesh of {made_of.description}: {self.target} has no {shape.kind}"
         self.keeper.sink.report(rules.REPLACED_SHAPE, message, shape.location, found=shape.kind)
         self._account(shape, message)
+        for other in geometry.opaque:  # a polyline may be one of several
+            sink = self.keeper.sink
+            sink.account(Fate.APPROXIMATED, rules.REPLACED_SHAPE, message, other.location, other.weight)
         path = f"{FOLDER}/{made_of.name}"
         uri = f"{self.prefix.rstrip('/')}/{path}" if self.prefix else path
         made = replace_fields(part, geometry=Geometry(shape=Mesh(uri=uri)))

@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 import twinform
+from twinform.compiler.audit import audit
 from twinform.diagnostics import rules
 
 TEXT = """<sdf version="1.11"><model name="m"><link name="a">{}</link></model></sdf>"""
@@ -232,3 +233,14 @@ def test_ends_have_names_that_are_free() -> None:
     visuals = twinform.loads(urdf(f"<visual name='v'>{CAPSULE}</visual>{taken}").text).models[0].links[0].visuals
     names = [each.name for each in visuals]
     assert len(set(names)) == len(names) == 6
+
+
+@pytest.mark.parametrize("carriers", [False, True])
+def test_every_polyline_of_a_shape_is_accounted_for(carriers: bool) -> None:
+    points = "<point>{0} {1}</point><point>{2} {1}</point><point>{2} {3}</point>"
+    outlines = (points.format(0.137, 0.139, 0.983, 0.987), points.format(0.713, 0.317, 0.823, 0.419))
+    shape = "".join(f"<polyline>{each}<height>1</height></polyline>" for each in outlines)
+    made = urdf(f"<collision name='c'><geometry>{shape}</geometry></collision>", carriers=carriers)
+    assert made.source is not None
+    assert kinds(made) == ["mesh"]
+    assert audit(made.source, made.text, made.ledger).unaccounted == ()
