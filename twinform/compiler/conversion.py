@@ -22,7 +22,7 @@ from twinform.compiler.output.source_comments import Comments
 from twinform.compiler.request import ConversionRequest
 from twinform.compiler.resolve_uris import LocalAssets
 from twinform.dataclass import dataclass
-from twinform.diagnostics import Diagnostic, DiagnosticSink, Ledger, SideFile
+from twinform.diagnostics import Diagnostic, DiagnosticSink, Ledger, LineOrigins, SideFile
 from twinform.diagnostics.rules import MISSING_ATTRIBUTE, MISSING_LIMIT, OUTSIDE_VERSION
 from twinform.ir import Document, Format, Include
 from twinform.ir.verify import verify
@@ -33,13 +33,16 @@ from twinform.passes.sdf_versions import has_early_frames
 from twinform.passes.shared.candidates import candidates, name_once_expanded, wanted_includes
 from twinform.schemas import XmlElement
 
+_LAST_LINE = 2**16 - 1
+"""The last line that libxml2 can be told."""
+
 
 @dataclass(frozen=True)  # no slots: `source` is kept in the dictionary
 class Conversion:
     """What `convert` made: the text, its document, the diagnostics and the ledger.
 
     `origin` is what it was read from: the bytes of a file, or the XML of a document in memory. `side_files` are files
-    that passes made to lie beside the text.
+    that passes made to lie beside the text. `lines` lead from an expansion by xacro to where its parts were written.
     """
 
     text: str
@@ -48,11 +51,22 @@ class Conversion:
     ledger: Ledger
     origin: bytes | XmlElement | None = field(default=None, repr=False, compare=False)
     side_files: tuple[SideFile, ...] = ()
+    lines: LineOrigins | None = field(default=None, repr=False, compare=False)
 
     @cached_property
     def source(self) -> XmlElement | None:
-        """The XML that it was made from, for `twinform.compiler.audit`; a file is parsed once more."""
-        return read_tree_again(self.origin) if isinstance(self.origin, bytes) else self.origin
+        """The XML that it was made from, for `twinform.compiler.audit`; a file is parsed once more.
+
+        Elements have the lines that the ledger has: of what xacro expanded, those where they were written.
+        """
+        if not isinstance(self.origin, bytes):
+            return self.origin
+        tree = read_tree_again(self.origin)
+        for element in tree.iter("*") if self.lines else ():
+            place = self.lines and self.lines.place(element.sourceline or 0)
+            if place:
+                element.sourceline = min(place.line, _LAST_LINE)  # pyright: ignore[reportAttributeAccessIssue]
+        return tree
 
     def _repr_html_(self) -> str:
         """Return what a notebook shows."""
@@ -179,7 +193,8 @@ def _convert_document(
     lost = sum(entry.weight for entry in sink.entries)
     ledger = Ledger(max(0, loaded.size - lost), sink.traced_entries())
     origin = loaded.tree if loaded.content is None else loaded.content
-    return Conversion(text, document, tuple(sink.diagnostics), ledger, origin, tuple(sink.side_files))
+    lines = loaded.origins.get(loaded.text_name)
+    return Conversion(text, document, tuple(sink.diagnostics), ledger, origin, tuple(sink.side_files), lines)
 
 
 def _run_remedies(

@@ -1,5 +1,7 @@
 """The audit finds what became of each part, with carriers and without."""
 
+from pathlib import Path
+
 import pytest
 
 import twinform
@@ -88,3 +90,21 @@ def test_a_boolean_is_accounted_for_by_its_opposite(gravity: str, to: Language) 
     for each in (made, again):
         assert each.source is not None
         assert audit(each.source, each.text, each.ledger).unaccounted == ()
+
+
+def test_what_a_xacro_file_expands_to_is_found_in_the_ledger(tmp_path: Path) -> None:
+    path = tmp_path / "r.urdf.xacro"
+    path.write_text(
+        """<robot name="r" xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <xacro:macro name="part" params="name">
+
+    <link name="${name}"/>
+    <transmission name="${name}_drive"><type>odd/${name}</type></transmission>
+  </xacro:macro>
+  <xacro:part name="a"/>
+</robot>"""
+    )
+    made = twinform.convert(path, to="sdf", carriers=False)
+    assert made.source is not None
+    assert 5 in {each.location.line for each in made.ledger.entries}
+    assert audit(made.source, made.text, made.ledger).unaccounted == ()
