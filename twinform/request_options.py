@@ -12,7 +12,7 @@ from twinform.schemas import versions_of
 if TYPE_CHECKING:
     from twinform.passes.framework.pass_base import Pass
 
-Language = Literal["sdf", "urdf", "json"]
+Language = Literal["sdf", "urdf", "mjcf", "json"]
 UrdfVersion = Literal["1.0", "1.1", "1.2"]
 URDF_VERSIONS: tuple[UrdfVersion, ...] = get_args(UrdfVersion)
 

@@ -41,8 +41,8 @@ if TYPE_CHECKING:
 # comment.
 _ENOUGH = 2**16
 
-_FORMATS = {b"robot": "urdf", b"sdf": "sdf"}
-_SUFFIXES = {".urdf": "urdf", ".sdf": "sdf", ".world": "sdf", ".json": "json"}
+_FORMATS = {b"robot": "urdf", b"sdf": "sdf", b"mujoco": "mjcf"}
+_SUFFIXES = {".urdf": "urdf", ".sdf": "sdf", ".world": "sdf", ".mjcf": "mjcf", ".json": "json"}
 _SKIPPED = ((b"<!--", b"-->"), (b"<?", b"?>"), (b"<!", b">"))
 """What may stand before the root element: beginnings and ends."""
 
@@ -68,7 +68,7 @@ class InputSource(NamedTuple):
 
     @property
     def format(self) -> str | None:
-        """`urdf`, `sdf` or `json`, by the beginning of the content or else by the suffix; None if neither tells."""
+        """The format by the beginning of the content, or else by the suffix; None if neither tells."""
         head = self.content[:_ENOUGH] if isinstance(self.content, bytes) else _head(Path(self.content))
         if head.lstrip()[:1] == b"{":
             return "json"

@@ -8,7 +8,7 @@ from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal, NamedTuple, get_args
+from typing import TYPE_CHECKING, NamedTuple, get_args
 
 import click
 
@@ -25,7 +25,7 @@ from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, Fate, Ledger, Policy
 from twinform.diagnostics.reporters import FileFindings, printable
 from twinform.passes import FilesPass, PassError, PassInstrumentation, Pipeline
-from twinform.request_options import RequestOptions
+from twinform.request_options import Language, RequestOptions
 from twinform.storage.writing import folded, is_stream
 
 if TYPE_CHECKING:
@@ -33,11 +33,11 @@ if TYPE_CHECKING:
     from twinform.compiler.in_place import TextChange, Updated
 
 
-Target = Literal["sdf", "urdf", "json"]
+Target = Language
 TARGETS: tuple[Target, ...] = get_args(Target)
 
-_OTHER: dict[str, Target] = {"urdf": "sdf", "sdf": "urdf"}
-_ENDINGS = frozenset({".urdf", ".sdf", ".world", ".xml", ".json", ".xacro"})
+_OTHER: dict[str, Target] = {"urdf": "sdf", "sdf": "urdf", "mjcf": "sdf"}
+_ENDINGS = frozenset({".urdf", ".sdf", ".world", ".xml", ".mjcf", ".json", ".xacro"})
 
 
 class ConversionJob(NamedTuple):
@@ -115,7 +115,7 @@ def _other_format(source: InputSource) -> Target:
 
 def _job_in_folder(folder: Path, source: InputSource, target: Target) -> ConversionJob:
     name = Path("stdin" if isinstance(source.content, bytes) else source.name)
-    ending: str = target
+    ending = "xml" if target == "mjcf" else str(target)
     while name.suffix.lower() in _ENDINGS:
         ending = "world" if target == "sdf" and name.suffix.lower() == ".world" else ending
         name = name.with_suffix("")

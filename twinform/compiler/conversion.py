@@ -91,7 +91,8 @@ def convert_once(
         # parses the text again (`Conversion.source`).
         load_options = replace(load_options, keep_tree=False).read_by(request.sdf_version)
         comments = request.comments and request.to != "json"  # which has no place for any
-        loaded = read(source, replace(load_options, keep_comments=comments), name=name)
+        as_mjcf = request.to == "mjcf" and not (request.passes or request.remedies)  # text of MJCF stays what it is
+        loaded = read(source, replace(load_options, keep_comments=comments, as_mjcf=as_mjcf), name=name)
         request = replace(request, assets=LocalAssets(load_options.search, Path(loaded.path)))
         # SDF to SDF keeps its includes: a world with 525 models from Fuel is read and written
         # without opening any of them. URDF has none, so there those of the chosen model are

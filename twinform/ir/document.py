@@ -38,10 +38,11 @@ class World(Node):
 
 
 class Format(StrEnum):
-    """The two languages."""
+    """The three languages."""
 
     URDF = "urdf"
     SDF = "sdf"
+    MJCF = "mjcf"
 
 
 @record
@@ -49,7 +50,8 @@ class Document(Node):
     """All that one file holds, in the terms of `format`.
 
     Attributes:
-        format: the language of the file.
+        format: the language in whose terms it is: what is read of MJCF is in the terms of SDF, so that only a document
+            which is about to be written is of MJCF.
         version: that of the language, as the file writes it; `None` where it has none.
         namespaces: the prefixes that it declares and what they stand for, in their order.
         worlds: of SDF.

@@ -1,4 +1,4 @@
-"""The versions of both formats, and the one that readers take a declaration for."""
+"""The versions of the formats, and the one that readers take a declaration for."""
 
 from twinform.lazy import lazy_pattern
 
@@ -7,6 +7,7 @@ Version = tuple[int, int]
 _VERSIONS = {
     "urdf": ("1.0", "1.1", "1.2"),
     "sdf": ("1.2", "1.3", "1.4", "1.5", "1.6", "1.7", "1.8", "1.9", "1.10", "1.11", "1.12"),
+    "mjcf": ("4.0",),
 }
 DEFAULT_SDF_VERSION = "1.11"
 """The version of Gazebo Harmonic, the newest long-term release, and the first that has `mimic`."""
@@ -17,7 +18,7 @@ _FIRST_SDF = "1.0"
 
 
 def versions_of(format: str) -> tuple[str, ...]:
-    """The versions of `urdf` or `sdf`, from the oldest on."""
+    """The versions of a format, from the oldest on; of MJCF, which declares none, that of MuJoCo."""
     return _VERSIONS[format]
 
 

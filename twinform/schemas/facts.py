@@ -153,12 +153,12 @@ class Table:
         return parse_version(self.versions[-1])
 
 
-_ROOTS = {"urdf": "robot", "sdf": "sdf"}
+_ROOTS = {"urdf": "robot", "sdf": "sdf", "mjcf": "mujoco"}
 
 
 @cache
 def table(format: str) -> Table:
-    """The facts of `urdf` or `sdf`."""
+    """The facts of a format."""
     folder = package_files("twinform.schemas").joinpath(format, "facts")
     files = sorted((file for file in folder.iterdir() if file.name.endswith(".facts")), key=lambda file: file.name)
     definitions = FactDefinitions()

@@ -17,7 +17,7 @@ from twinform.schemas.text_generator import generate_text_writer
 from twinform.schemas.xsd import generate_schema
 from twinform.storage.writing import write_all_atomically
 
-FORMATS = ("urdf", "sdf")
+FORMATS = ("urdf", "sdf", "mjcf")
 
 
 def generated() -> Iterator[tuple[Path, str]]:
@@ -28,7 +28,7 @@ def generated() -> Iterator[tuple[Path, str]]:
             for xsd in get_args(XsdVersion):
                 yield Path(str(schema_file(name, version, xsd))), generate_schema(facts, version, xsd)
         yield Path(str(code_file(f"{name}_text"))), generate_text_writer(facts)
-    yield Path(str(code_file("name_usage"))), generate_name_usage(map(table, FORMATS))
+    yield Path(str(code_file("name_usage"))), generate_name_usage(map(table, ("urdf", "sdf")))
 
 
 def stale() -> list[Path]:

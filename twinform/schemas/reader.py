@@ -23,7 +23,7 @@ from twinform.schemas.value_readers import Data, NodeMaker, keep_element, locate
 from twinform.schemas.value_types import VALUE_TYPES
 from twinform.schemas.xml import XmlElement, is_blank, is_followed
 
-_ROOTS: dict[str, type[Node]] = {"urdf": Model, "sdf": Document}
+_ROOTS: dict[str, type[Node]] = {"urdf": Model, "sdf": Document, "mjcf": Document}
 """The class of the node that the root element of a format makes."""
 
 

@@ -177,7 +177,7 @@ _SDF = _URDF | {
     "time": ValueType(_time, "seconds, or seconds and nanoseconds"),
 }
 
-VALUE_TYPES = {"urdf": _URDF, "sdf": _SDF}
+VALUE_TYPES = {"urdf": _URDF, "sdf": _SDF, "mjcf": _URDF}
 
 
 def parse_value(type: str, text: str, format: str = "sdf") -> object:

@@ -281,6 +281,7 @@ _REFERENCES = {
         _Reference("mimic", "joint", "joint/mimic", "@joint"),
     ),
     "sdf": (),  # its names have scopes, which no key can follow
+    "mjcf": (),
 }
 
 

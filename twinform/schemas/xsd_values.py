@@ -55,7 +55,7 @@ _SDF = _URDF | {
     "time": TokenCount(_FINITE, 1, 2),
 }
 
-TOKENS = {"urdf": _URDF, "sdf": _SDF}
+TOKENS = {"urdf": _URDF, "sdf": _SDF, "mjcf": _URDF}
 """By format and value type; `string` is any text."""
 
 _WORD = "word"

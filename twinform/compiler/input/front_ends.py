@@ -146,9 +146,16 @@ def _trimmer() -> Callable[[int], int] | None:
     return getattr(ctypes.CDLL(None), "malloc_trim", None) if sys.platform == "linux" else None
 
 
+def build_mjcf(root: XmlElement, context: Context) -> Document:
+    """Build the document of a `<mujoco>` in the terms of MJCF: all its elements are untyped."""
+    data = reader("mjcf", context.version).read(root, context)
+    return _make_document({"format": Format.MJCF, **data})
+
+
 ROOTS: dict[str, tuple[str, Callable[[XmlElement, Context], Document]]] = {
     "robot": ("urdf", build_urdf),
     "sdf": ("sdf", build_sdf),
+    "mujoco": ("mjcf", build_mjcf),
 }
 """The format and the front end for each root element."""
 

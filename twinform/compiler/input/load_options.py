@@ -108,7 +108,8 @@ class LoadOptions:
     `profiles` are those of the consumers that the files are for. `variables` are environment variables that xacro files
     may read besides those of ROS and Gazebo; `*` may stand in a name. `sdf_version` is the newest version that the
     reader of the files knows: of a folder with a model in several versions, the newest one up to it is read. `robot` is
-    the file of the robot that files which name parts of one are for, where somebody has said so.
+    the file of the robot that files which name parts of one are for, where somebody has said so. `as_mjcf` leaves a
+    document of MJCF in the terms of MJCF, to be written again.
     """
 
     strict: bool = False
@@ -125,6 +126,7 @@ class LoadOptions:
     variables: tuple[str, ...] = ()
     sdf_version: str = DEFAULT_SDF_VERSION
     robot: str = ""
+    as_mjcf: bool = False
 
     @classmethod
     def of(

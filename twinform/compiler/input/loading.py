@@ -338,10 +338,15 @@ def read_document(
     namespaces = namespaces_of(root, namespace, inside=_declares_inside(root, text, sink))
     size = None if load_options.keep_tree else parts_of(root)
     comments = comments if load_options.keep_comments else None
-    is_used_up = not (load_options.keep_tree or comments) and context.simple and len(text) > LARGE
+    is_mjcf = format_ == "mjcf"
+    is_used_up = not (load_options.keep_tree or comments or is_mjcf) and context.simple and len(text) > LARGE
     document = build_document(build, used_up(root) if is_used_up else root, context)
     if errors:
         validate(root, context, engine, errors)
+    if is_mjcf and not load_options.as_mjcf and not sink.has_errors:
+        from twinform.compiler.input.mjcf import lower_mjcf  # noqa: PLC0415 - few files are MJCF
+
+        document = lower_mjcf(root, context, load_options)
     amend(document, "namespaces", namespaces)
     allowances.settle(sink)
     return document, context, None if is_used_up else root, size, comments
@@ -363,8 +368,8 @@ def read_tree(
         root.tag = "sdf"
     if root.tag not in ROOTS:
         where = Location(line=root.sourceline or 0, path=f"/{root.tag}")
-        message = f"the root element is <{root.tag}>; expected <robot> or <sdf>"
-        sink.report(rules.UNKNOWN_ROOT, message, where, found=str(root.tag), expected="robot or sdf")
+        message = f"the root element is <{root.tag}>; expected <robot>, <sdf> or <mujoco>"
+        sink.report(rules.UNKNOWN_ROOT, message, where, found=str(root.tag), expected="robot, sdf or mujoco")
         raise UnreadableError
     return root, namespace
 

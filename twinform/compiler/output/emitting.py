@@ -164,12 +164,20 @@ def urdf_text(
     return root_text("urdf", version, model, namespaces, parts=parts)
 
 
+def mjcf_text(
+    document: Document, version: Version, namespaces: dict[str | None, str], parts: WrittenParts | None = None
+) -> str:
+    """Write a document of MJCF, whose elements are all untyped."""
+    return root_text("mjcf", version, document, namespaces, parts=parts)
+
+
 _NAMED = lazy_pattern(r"\[@name='([^']*)'\]")
 _START_TAG = lazy_pattern("<[^/?]")
 _ROOT_TAG = lazy_pattern(r'<[^\s/>?]+(?: xmlns:[^=]+="[^"]*")*')
 _BACK_ENDS: dict[Format, Callable[[Document, Version, dict[str | None, str], WrittenParts | None], str]] = {
     Format.URDF: urdf_text,
     Format.SDF: sdf_text,
+    Format.MJCF: mjcf_text,
 }
 
 

@@ -32,6 +32,12 @@ class Target:
 def legalisation(source: Format, version: str | None, target: Target) -> tuple[Pass, ...]:
     """Every pass that a document of `source` in `version` needs before the target's back end can write it."""
     # imported here: a conversion goes one way only, and each way has many passes
+    if target.format is Format.MJCF:
+        if source is Format.MJCF:
+            return ()
+        from twinform.passes.legalise.to_mjcf.sequence import to_mjcf  # noqa: PLC0415 - see above
+
+        return to_mjcf(source, version, target.requested)
     if source is target.format:
         if source is Format.URDF:
             return _between_urdf(version, target.urdf_version, carriers=target.requested.carriers)
@@ -71,3 +77,4 @@ def _ways() -> Iterator[tuple[Pass, ...]]:
             yield legalisation(Format.SDF, version, Target(Format.SDF, other))
     yield legalisation(Format.URDF, None, Target(Format.URDF, urdf_version="1.2"))
     yield legalisation(Format.SDF, versions[-1], Target(Format.URDF))
+    yield legalisation(Format.SDF, versions[-1], Target(Format.MJCF))

@@ -1,0 +1,19 @@
+"""The front end of MJCF: from the XML tree of a file to a document in the terms of SDF.
+
+First the tree is made canonical: includes, frames, replicates and attached models are put in their place, the values of
+default classes are written into each element, angles are radians and orientations are `quat`. Then its bodies become
+links, joints and frames.
+"""
+
+from twinform.compiler.input.load_options import LoadOptions
+from twinform.compiler.input.mjcf.lower import lower
+from twinform.compiler.input.mjcf.normalize import normalize
+from twinform.ir import Document
+from twinform.schemas import Context, XmlElement
+
+__all__ = ["lower_mjcf"]
+
+
+def lower_mjcf(root: XmlElement, context: Context, load_options: LoadOptions) -> Document:
+    """Build the document of a `<mujoco>` in the terms of the default version of SDF; the tree is left as it is."""
+    return lower(normalize(root, context, load_options), context)
