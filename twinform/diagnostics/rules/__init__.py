@@ -150,6 +150,7 @@ NEGATIVE_DYNAMICS = rule("negative-dynamics", Severity.WARNING, fix=Safety.UNSAF
 NESTED_IN_ENGINE = rule("nested-in-engine", Severity.INFO, group="portability")
 NESTED_MODEL = rule("nested-model", Severity.INFO, group="portability")
 NESTED_SETTING = rule("nested-setting", Severity.WARNING, group="portability")
+NESTED_TOO_DEEPLY = rule("nested-too-deeply", Severity.ERROR, group="portability")
 NO_DIFFERENTIAL_DRIVE = rule("no-differential-drive", Severity.INFO, group="plugins")
 NO_JOINT = rule("no-joint", Severity.INFO, group="portability")
 NO_JOINT_STATES = rule("no-joint-states", Severity.WARNING, group="plugins")

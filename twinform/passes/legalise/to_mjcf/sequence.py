@@ -1,7 +1,10 @@
 """Legalisation to MJCF: the passes, in order."""
 
+from collections.abc import Iterator
+
 from twinform.ir import Format
 from twinform.passes.framework.pass_base import Pass
+from twinform.passes.legalise.to_mjcf.hold_root import HoldRoot
 from twinform.passes.legalise.to_mjcf.write_mjcf import WriteMjcf
 from twinform.passes.sdf_versions import change_version
 from twinform.request_options import USUAL, Requested
@@ -14,9 +17,19 @@ def to_mjcf(source: Format, version: str | None, requested: Requested = USUAL) -
     """The passes that make MJCF of a URDF or SDF document: by way of the newest SDF, and no other way."""
     newest = versions_of("sdf")[-1]
     if source is Format.URDF:
-        from twinform.passes.legalise.to_sdf.sequence import to_sdf  # noqa: PLC0415 - many passes
-
-        in_sdf = to_sdf(newest, requested)
+        in_sdf = tuple(_robot_on_the_world(newest, requested))
     else:
         in_sdf = () if version == newest else change_version(version, newest, requested)
     return (*in_sdf, WriteMjcf.unchecked(carriers=requested.carriers))
+
+
+def _robot_on_the_world(version: str, requested: Requested) -> Iterator[Pass]:
+    """Yield the passes from URDF to SDF, with one more that fixes the robot to the world of SDF."""
+    from twinform.passes.legalise.to_sdf.sequence import to_sdf  # noqa: PLC0415 - many passes
+    from twinform.passes.legalise.to_sdf.world_link import WorldLink  # noqa: PLC0415 - see above
+
+    for each in to_sdf(version, requested):
+        yield each
+        # From here on a joint may have the world as its parent. Names are made unique after it.
+        if isinstance(each, WorldLink):
+            yield HoldRoot.unchecked()

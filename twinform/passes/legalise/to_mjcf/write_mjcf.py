@@ -1,30 +1,113 @@
-"""Writes a document in the terms of SDF as the elements of MJCF."""
+"""Writes a document in the terms of SDF as the elements of MJCF: which part of it, and the sections in their order."""
 
 from typing import ClassVar
 
 from twinform.diagnostics import DiagnosticSink
-from twinform.ir import Document, Element, Format, Opaque
-from twinform.passes.framework.pass_base import Pass
+from twinform.ir import Document, Element, Format, Model, Opaque, World
+from twinform.ir.frames import FrameError
+from twinform.passes.carriers.carriers import Keeper
+from twinform.passes.framework.pass_base import AssetPass
+from twinform.passes.legalise.to_mjcf.actuators import add_actuators
+from twinform.passes.legalise.to_mjcf.bodies import body_elements
+from twinform.passes.legalise.to_mjcf.contacts import add_contacts
+from twinform.passes.legalise.to_mjcf.elements import make_element
+from twinform.passes.legalise.to_mjcf.equalities import add_equalities
+from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements
+from twinform.passes.legalise.to_mjcf.lights import world_lights
+from twinform.passes.legalise.to_mjcf.options import add_options
+from twinform.passes.legalise.to_mjcf.sites import world_sites
+from twinform.passes.legalise.to_mjcf.texts import add_texts
+from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext
+
+_COMPILER = make_element(
+    "compiler",
+    [
+        ("angle", "radian"),
+        # Whether a joint is limited stands beside its range, where an edit sees it.
+        ("autolimits", "false"),
+        # A link without mass has none: MuJoCo would compute one of its shapes.
+        ("inertiafromgeom", "false"),
+    ],
+)
+# MuJoCo takes them in any order; this is the one of its documentation.
+_SECTIONS = (
+    "option", "size", "visual", "statistic", "default", "custom", "extension", "asset", "worldbody", "contact",
+    "deformable", "equality", "tendon", "actuator", "sensor", "keyframe",
+)  # fmt: skip
+_SINGLE = frozenset({"compiler", "option", "size", "visual", "statistic"})
+"""Sections that are one element with attributes: what is added to them is merged."""
 
 
-class WriteMjcf(Pass):
+class WriteMjcf(AssetPass):
     """Write a model, or the models of a world, as the elements of MJCF.
 
-    Changes: the document becomes one of MJCF.
+    Changes: the document becomes one of MJCF: 1. angles are in radians, orientations are quaternions, and there are no
+    classes of defaults; 2. a link without mass has no inertial, and none is computed of its shapes; 3. what MJCF cannot
+    say is in the ledger, and with `carriers` in texts of the `custom` section.
     Never touches: what is of MJCF already.
-    Diagnostics: none.
+    Diagnostics: `massless-link`, `joint-type-unsupported`, `nested-too-deeply`, `moving-plane`, `unreadable-mesh`.
     """
 
     name: ClassVar[str] = "write-mjcf"
     carriers: bool = True
 
     def run(self, document: Document, sink: DiagnosticSink) -> Document:
-        """The document in the terms of MJCF."""
-        model = document.models[0]
-        parts = [Opaque.unchecked(attribute=("model", model.name)), Opaque.unchecked(element=_worldbody())]
+        """The document in the terms of MJCF; unchanged after an error."""
+        if sink.has_errors or document.format is Format.MJCF:
+            return document
+        holder = holder_of(document)
+        context = MjcfContext(document, holder, sink, Keeper(sink, self.carriers), self._assets)
+        try:
+            _write_sections(context)
+        except FrameError as error:
+            error.report(sink)
+            return document
+        parts = [Opaque.unchecked(attribute=("model", holder.name))]
+        parts += [Opaque.unchecked(element=each) for each in _in_order(context)]
         return Document.unchecked(format=Format.MJCF, opaque=tuple(parts), source=document.source)
 
 
-def _worldbody() -> Element:
-    """Make the element of the world and all bodies in it."""
-    return Element.unchecked(name="worldbody")
+def holder_of(document: Document) -> Model | World:
+    """What is written of a document: its world, or its model; several models without a world stand in one."""
+    if document.worlds:
+        return document.worlds[0]
+    if len(document.models) == 1:
+        return document.models[0]
+    return World.unchecked(name="world", models=document.models, lights=document.lights, source=document.source)
+
+
+def _write_sections(context: MjcfContext) -> None:
+    """Fill all sections of a context. Those that name bodies, joints and geoms come after these have their names."""
+    add_options(context)
+    bodies = body_elements(context)
+    for each in (*world_lights(context), *world_sites(context), *bodies):
+        context.add("worldbody", each)
+    add_equalities(context)
+    add_contacts(context)
+    add_actuators(context)
+    for kept in kept_elements(context.holder):
+        for each in (kept,) if kept.name in _SINGLE else kept.children:
+            context.add(kept.name, each)
+    add_texts(context)
+
+
+def _in_order(context: MjcfContext) -> list[Element]:
+    """The sections that have anything, in their order."""
+    found = [_merged([_COMPILER, *context.sections.get("compiler", ())])]
+    for name in _SECTIONS:
+        elements = context.sections.get(name, [])
+        if elements:
+            found.append(_merged(elements) if name in _SINGLE else make_element(name, (), elements))
+        elif name == "worldbody":
+            found.append(make_element(name))
+    return found
+
+
+def _merged(elements: list[Element]) -> Element:
+    """One element with the attributes and children of all; the first to say an attribute wins."""
+    first, *others = elements
+    for other in others:
+        known = {key for key, _ in first.attributes}
+        more = tuple(each for each in other.attributes if each[0] not in known)
+        first = first.copy(attributes=(*first.attributes, *more), children=(*first.children, *other.children))
+    return first

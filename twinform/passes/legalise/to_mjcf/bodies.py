@@ -1,0 +1,135 @@
+"""Bodies of MJCF: the tree of links, with the joints that hold them, their poses, and free joints.
+
+A link is a body in the body of its parent, and one that hangs from nothing or from the world is in `worldbody`. Without
+a joint it is fixed there, as in a static model; one that is free has a `freejoint`.
+"""
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from twinform.diagnostics import rules
+from twinform.ir import Element
+from twinform.ir.frames import WORLD
+from twinform.ir.kinematic_tree import JointBetween
+from twinform.passes.carriers.annotations import is_synthesized
+from twinform.passes.carriers.joint_chains import part_of
+from twinform.passes.legalise.to_mjcf.elements import make_element, placement
+from twinform.passes.legalise.to_mjcf.geoms import geom_elements
+from twinform.passes.legalise.to_mjcf.inertials import inertial_elements
+from twinform.passes.legalise.to_mjcf.joints import joint_elements
+from twinform.passes.legalise.to_mjcf.kept_mjcf import with_kept
+from twinform.passes.legalise.to_mjcf.lights import body_lights
+from twinform.passes.legalise.to_mjcf.sensors import body_sensors, joint_sensors
+from twinform.passes.legalise.to_mjcf.sites import body_sites
+from twinform.passes.legalise.to_mjcf.writing_context import Body, MjcfContext, scope_of
+
+MOST_DEEP = 490
+"""So many bodies may be nested: MuJoCo's parser of XML takes 500 elements, and refused 497 bodies."""
+
+
+class Hold(NamedTuple):
+    """How a link is held: the link that it hangs from, None for the world, and the joints between, parents first."""
+
+    parent: str | None
+    joints: tuple[JointBetween, ...]
+
+
+def body_elements(context: MjcfContext) -> list[Element]:
+    """The bodies in `worldbody`, each with all that hangs from it.
+
+    Raises:
+        FrameError: a frame is not known, or frames go round in a circle.
+    """
+    return _BodyTree(context).elements()
+
+
+class _BodyTree:
+    """Writes the bodies of a model or world, children before their parents."""
+
+    def __init__(self, context: MjcfContext) -> None:
+        self.context = context
+        self.tree = context.tree
+        self.folded = {name for name in self.tree.links if self._is_in_chain(name)}
+        self.holds: dict[str, Hold] = {}
+        self.children: dict[str | None, list[str]] = {None: []}
+        for name in self._in_order():
+            hold = self.holds[name] = self._hold(name)
+            self.children.setdefault(hold.parent, []).append(name)
+
+    def elements(self) -> list[Element]:
+        """The bodies at the top."""
+        bodies: dict[str, Body] = {}
+        depth: dict[str | None, int] = {None: 0}
+        for name in self.holds:  # parents first, so that names are given in this order
+            hold = self.holds[name]
+            depth[name] = depth[hold.parent] + 1
+            bodies[name] = self._body(name, hold, bodies)
+        if (deepest := max(depth.values())) > MOST_DEEP:
+            message = f"{deepest} links hang from each other, and MuJoCo reads no more than {MOST_DEEP} nested bodies"
+            help_ = "lump-fixed-joints makes one link of those that fixed joints hold together"
+            where = self.context.holder.location
+            self.context.sink.report(rules.NESTED_TOO_DEEPLY, message, where, found=str(deepest), help=help_)
+            return []
+        parts = {name: self._parts(bodies[name], self.holds[name]) for name in self.holds}
+        made: dict[str, Element] = {}
+        for name in reversed(self.holds):
+            inner = [made.pop(child) for child in self.children.get(name, ())]
+            made[name] = self._element(bodies[name], self.holds[name], [*parts.pop(name), *inner])
+        return [made[name] for name in self.children[None]]
+
+    def _in_order(self) -> Iterator[str]:
+        """Yield the links that become bodies, parents first."""
+        for root in self.tree.roots:
+            yield from (name for name in self.tree.below(root) if name not in self.folded)
+
+    def _is_in_chain(self, name: str) -> bool:
+        """Whether a link is one that a pass put between two joints of a chain: both move the body below it."""
+        link = self.tree.links[name]
+        if not (is_synthesized(link) or part_of(link)) or link.visuals or link.collisions or link.sensors:
+            return False
+        return len(self.tree.joints_below(name)) == 1 and self.tree.joint_above(name) is not None
+
+    def _hold(self, name: str) -> Hold:
+        found: list[JointBetween] = []
+        between = self.tree.joint_above(name)
+        while between is not None:
+            found.append(between)
+            if between.parent not in self.folded:
+                break
+            between = self.tree.joint_above(between.parent)
+        if between is None:
+            return Hold(None, ())
+        parent = None if between.parent == WORLD and WORLD not in self.tree.links else between.parent
+        return Hold(parent, tuple(reversed(found)))
+
+    def _body(self, name: str, hold: Hold, above: dict[str, Body]) -> Body:
+        link = self.tree.links[name]
+        written = self.context.name("body", name, link.location) or name
+        self.context.written_bodies[name] = written
+        moves = name not in self.context.static_links and (
+            not hold.joints
+            or any(each.type != "fixed" for each in hold.joints)
+            or (hold.parent is not None and above[hold.parent].moves)
+        )
+        return Body(name, scope_of(name), link, written, moves)
+
+    def _parts(self, body: Body, hold: Hold) -> list[Element]:
+        """What is in a body beside the bodies in it."""
+        context = self.context
+        is_free = body.moves and not hold.joints
+        free = [with_kept(make_element("freejoint", source=None), body.link)] if is_free else []
+        return [
+            *inertial_elements(context, body),
+            *free,
+            *(joint_elements(context, body, hold.joints) if hold.joints else ()),
+            *geom_elements(context, body),
+            *body_sites(context, body),
+            *(part for each in hold.joints for part in joint_sensors(context, body, each)),
+            *body_sensors(context, body),
+            *body_lights(context, body),
+        ]
+
+    def _element(self, body: Body, hold: Hold, children: list[Element]) -> Element:
+        placed = placement(self.context.place(body.name, hold.parent))
+        element = make_element("body", [("name", body.written), *placed], children, body.link.source)
+        return with_kept(element, body.link)

@@ -1,0 +1,59 @@
+"""Making elements of MJCF: attributes from numbers and vectors, positions and quaternions from transforms.
+
+Numbers are written so that they read back as the same double. Orientations are always quaternions, w x y z.
+"""
+
+from collections.abc import Iterable
+
+from twinform.diagnostics import Source
+from twinform.ir import Element
+from twinform.ir.transform import Transform, rounded
+from twinform.schemas import format_value
+
+Value = str | float | bool | tuple[float, ...] | None
+"""What an attribute may be made of; one that is None is not written."""
+Attributes = Iterable[tuple[str, Value]]
+
+
+def make_element(
+    name: str, attributes: Attributes = (), children: Iterable[Element] = (), source: Source | None = None
+) -> Element:
+    """Return an element; `source` is where the part was read that it is written for."""
+    written = tuple([(key, attribute_text(value)) for key, value in attributes if value is not None])
+    return Element.unchecked(name=name, attributes=written, children=tuple(children), source=source)
+
+
+def attribute_text(value: str | float | bool | tuple[float, ...]) -> str:
+    """The text of a value."""
+    return value if isinstance(value, str) else format_value(value)
+
+
+def with_attributes(element: Element, attributes: Attributes) -> Element:
+    """Return the element with more attributes behind its own; those that it has stay as they are."""
+    known = {key for key, _ in element.attributes}
+    more = [(key, attribute_text(value)) for key, value in attributes if value is not None and key not in known]
+    return element.copy(attributes=(*element.attributes, *more)) if more else element
+
+
+def placement(transform: Transform) -> list[tuple[str, Value]]:
+    """`pos` and `quat` of a transform; what is zero or no rotation is left out."""
+    found: list[tuple[str, Value]] = []
+    if any(transform.translation):
+        found.append(("pos", position(transform)))
+    if not transform.is_unturned:
+        found.append(("quat", orientation(transform)))
+    return found
+
+
+def position(transform: Transform) -> tuple[float, float, float]:
+    """The translation, without the noise of computing it."""
+    return rounded(transform.translation)
+
+
+def orientation(transform: Transform) -> tuple[float, float, float, float]:
+    """The rotation as a unit quaternion w x y z, with w at least 0."""
+    x, y, z, w = transform.quaternion()
+    if w < 0:
+        x, y, z, w = -x, -y, -z, -w
+    x, y, z = rounded((x, y, z))
+    return (rounded((w, 0.0, 0.0))[0], x + 0.0, y + 0.0, z + 0.0)

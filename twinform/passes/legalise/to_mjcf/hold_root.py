@@ -1,0 +1,33 @@
+"""Fixes the root of a robot of URDF to the world, where MuJoCo has it, before it becomes a model of SDF."""
+
+from typing import ClassVar
+
+from twinform.diagnostics import DiagnosticSink
+from twinform.ir import Joint, Model
+from twinform.ir.frames import WORLD
+from twinform.passes.carriers.annotations import annotate_synthesized
+from twinform.passes.framework.pass_base import ModelPass
+from twinform.passes.shared.nodes import unique_name
+
+
+class HoldRoot(ModelPass):
+    """Fix the root of a robot of URDF to the world, where MuJoCo's reader of URDF and RViz have it.
+
+    Changes: the link that is no joint's child hangs from the world by a fixed joint, which is annotated as made.
+    Never touches: a robot whose root is a link called `world`; links that floating joints leave free.
+    Diagnostics: none.
+    """
+
+    name: ClassVar[str] = "hold-root"
+
+    def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
+        """The model with its root on the world."""
+        del sink
+        children = {joint.child for joint in model.joints}
+        root = next((link for link in model.links if link.name not in children), None)
+        if root is None or any(joint.parent == WORLD for joint in model.joints):
+            return model
+        taken = {node.name for node in (*model.links, *model.joints, *model.frames)}
+        name = unique_name(f"{root.name}_on_world", taken)
+        joint = Joint.unchecked(name=name, type="fixed", parent=WORLD, child=root.name)
+        return model.copy(joints=(annotate_synthesized(joint), *model.joints))

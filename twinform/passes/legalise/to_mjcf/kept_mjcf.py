@@ -1,0 +1,33 @@
+"""What only MJCF has, kept in a node as `<tf:mjcf>`, merged into the element that is written for that node.
+
+A joint that was read with an armature holds `<tf:mjcf><joint armature="0.1"/></tf:mjcf>`. Attributes that the written
+element lacks are added, and children go behind its own; what the node says itself wins.
+"""
+
+from collections.abc import Iterator
+
+from twinform.ir import Element, Node
+from twinform.passes.carriers.carriers import NAMESPACE
+
+KEPT = f"{{{NAMESPACE}}}mjcf"
+
+
+def kept_elements(node: Node) -> Iterator[Element]:
+    """Yield the elements of MJCF that a node keeps."""
+    for part in node.opaque:
+        if part.element is not None and part.element.name == KEPT:
+            yield from part.element.children
+
+
+def with_kept(element: Element, node: Node) -> Element:
+    """Return the element with what the node keeps of an element of this name."""
+    if not node.opaque:
+        return element
+    for kept in kept_elements(node):
+        if kept.name == element.name:
+            known = {key for key, _ in element.attributes}
+            more = tuple(each for each in kept.attributes if each[0] not in known)
+            element = element.copy(
+                attributes=(*element.attributes, *more), children=(*element.children, *kept.children)
+            )
+    return element

@@ -1,0 +1,153 @@
+"""What all writers of MJCF share in one conversion: frames, the tree of links, names in use, assets, and side lists.
+
+`MjcfContext` is made once for a model or world. Writers of parts take it and a node, and return elements; what belongs
+into another section of the file, such as an equality or a sensor, they append to the lists of the context.
+"""
+
+from collections import defaultdict
+from dataclasses import field
+from functools import cached_property
+from typing import NamedTuple
+
+from twinform.dataclass import dataclass
+from twinform.diagnostics import DiagnosticSink, Fate, Location, Rule, rules
+from twinform.ir import Document, Element, Link, Model, Pose, World
+from twinform.ir.frames import WORLD, Kind
+from twinform.ir.kinematic_tree import KinematicTree
+from twinform.ir.scopes import SCOPE, scoped_models
+from twinform.ir.transform import Transform
+from twinform.passes.carriers.carriers import Keeper
+from twinform.passes.framework.assets import NO_ASSETS, Assets
+from twinform.passes.shared.nodes import reserve_name
+
+_RESERVED = {"body": frozenset({"world"})}
+"""Names that MuJoCo gives itself, by kind."""
+
+
+class Body(NamedTuple):
+    """A link that is about to be written: its name with the models around it, and the prefix of its scope.
+
+    `written` is the name that the body has in MJCF, and `moves` whether anything can move it.
+    """
+
+    name: str
+    scope: str
+    link: Link
+    written: str
+    moves: bool
+
+
+@dataclass(slots=False)
+class MjcfContext:
+    """The state of one conversion to MJCF.
+
+    Attributes:
+        document: what is converted, in the terms of SDF 1.12.
+        holder: the model or world of it that is written.
+        sink: for findings and the ledger.
+        keeper: for what MJCF cannot say: carried, or dropped where no carriers are asked for.
+        assets: leads to the files that the document names.
+        names: the names in use, by kind (`body`, `joint`, `geom`, `site`, `mesh`, ...): each kind has its own.
+        written_joints: for each joint, by its scoped name, the names of the MJCF joints that stand for it: none for one
+            that is fixed.
+        written_geoms: for each visual or collision, by its identity, the name of its geom.
+        files: `asset` elements by what they are made of, so that equal ones are shared.
+        sections: what stands outside of `worldbody`, by the name of the section, in the order in which it was added.
+    """
+
+    document: Document
+    holder: Model | World
+    sink: DiagnosticSink
+    keeper: Keeper
+    assets: Assets = NO_ASSETS
+    names: dict[str, set[str]] = field(default_factory=dict[str, set[str]])
+    written_bodies: dict[str, str] = field(default_factory=dict[str, str])
+    written_joints: dict[str, tuple[str, ...]] = field(default_factory=dict[str, tuple[str, ...]])
+    written_geoms: dict[int, str] = field(default_factory=dict[int, str])
+    files: dict[object, str] = field(default_factory=dict[object, str])
+    sections: dict[str, list[Element]] = field(default_factory=lambda: defaultdict(list))
+
+    @cached_property
+    def tree(self) -> KinematicTree:
+        """The links and joints, with scoped names.
+
+        Raises:
+            FrameError: a frame is not known, or frames go round in a circle.
+        """
+        return KinematicTree(self.holder)
+
+    @cached_property
+    def static_links(self) -> frozenset[str]:
+        """The scoped names of the links of static models, and of those nested in them."""
+        models = [("", self.holder)] if isinstance(self.holder, Model) else _models_of(self.holder)
+        held = [(scope, each) for top, model in models for scope, each in scoped_models(model, top)]
+        static = tuple(scope for scope, each in held if each.static)
+        if not static:
+            return frozenset()
+        return frozenset(name for name in self.tree.links if name.startswith(static))
+
+    def add(self, section: str, element: Element) -> None:
+        """Add an element to a section beside `worldbody`, such as `equality` or `sensor`."""
+        self.sections[section].append(element)
+
+    def name(self, kind: str, wanted: str | None, where: Location) -> str | None:
+        """A name that no other part of this kind has: the one that is wanted, or with a number behind it.
+
+        Names of MJCF are unique per kind in the whole file. A change of name is in the ledger.
+        """
+        if not wanted:
+            return None
+        used = self.names.setdefault(kind, set(_RESERVED.get(kind, ())))
+        made = reserve_name(wanted, used)
+        if made != wanted:
+            message = f"{kind} {wanted!r} is called {made!r}: names are unique in all of MJCF"
+            self.sink.account(Fate.APPROXIMATED, rules.RENAMED, message, where, 0)
+        return made
+
+    def resolve(self, pose: Pose | None, body: Body) -> Transform:
+        """Where a pose is in the frame of a body; it is in that frame unless it names another.
+
+        Raises:
+            FrameError: a frame is not known, or frames go round in a circle.
+        """
+        if pose is None:
+            return _IDENTITY
+        if not pose.relative_to:
+            return Transform.from_pose(pose)
+        return self.tree.frames.resolve(self.in_scope(pose, body.scope), body.name, body.name)
+
+    def in_scope(self, pose: Pose, scope: str) -> Pose:
+        """Return a pose of a part in a nested model, with the name of its frame as it is in the outermost scope."""
+        if not scope or not pose.relative_to or (pose.relative_to == WORLD and isinstance(self.holder, World)):
+            return pose
+        return pose.copy(relative_to=scope + pose.relative_to)
+
+    def place(self, name: str, parent: str | None, *, kind: Kind = "link") -> Transform:
+        """Where a frame is in that of a link, or in the world where `parent` is None.
+
+        Raises:
+            FrameError: a frame is not known, or frames go round in a circle.
+        """
+        if parent is None:
+            return self.tree.frames.pose(name, WORLD, kind=kind, base="world")
+        return self.tree.frames.pose(name, parent, kind=kind)
+
+    def account(self, rule: Rule, message: str, where: Location, weight: int = 1) -> None:
+        """Enter what MJCF cannot say into the ledger: carried, or dropped without carriers."""
+        self.keeper.account(rule, message, where, weight)
+
+    def approximate(self, rule: Rule, message: str, where: Location, weight: int = 1) -> None:
+        """Enter what MJCF says in another way into the ledger."""
+        self.sink.account(Fate.APPROXIMATED, rule, message, where, weight)
+
+
+_IDENTITY = Transform()
+
+
+def scope_of(name: str) -> str:
+    """The prefix of a scoped name: `arm::` of `arm::hand`."""
+    return name[: name.rindex(SCOPE) + len(SCOPE)] if SCOPE in name else ""
+
+
+def _models_of(world: World) -> list[tuple[str, Model]]:
+    return [(model.name + SCOPE, model) for model in world.models]
