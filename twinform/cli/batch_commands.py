@@ -91,7 +91,7 @@ _PATTERN = click.option(
     metavar="GLOB",
     multiple=True,
     default=PATTERNS,
-    help=f"Which files are models; repeatable. Else {', '.join(PATTERNS)}.",
+    help=f"Which files are models; repeatable. Else {', '.join(PATTERNS)}, and *.xml with the root <mujoco>.",
 )
 _SHARD = click.option(
     "--shard",

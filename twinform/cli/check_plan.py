@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from twinform.cli.model_files import PARAMETERS, SRDF, is_companion_file
 from twinform.compiler.input.load_options import XACRO
+from twinform.compiler.input.root_names import may_be_mjcf
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Severity, is_typo, rules
 from twinform.file_access import may_be_root
@@ -41,7 +42,7 @@ class CheckPlan:
         load_options: "LoadOptions",
         remember: "Remember" = lambda _, make: make(),
     ) -> "CheckPlan":
-        """Read how the files include each other, unless nothing of xacro is to be looked at.
+        """Read how the files include each other, unless nothing of xacro is to be looked at and none is MJCF.
 
         `remember` may know it from an earlier run.
         """
@@ -50,7 +51,9 @@ class CheckPlan:
         names = [each.content for each in sources if isinstance(each.content, str)]
         companions = {name: "companion" for name in names if _is_companion(name)}
         files = [name for name in names if _may_be_part(name)]
-        if not files or load_options.xacro is False:
+        if load_options.xacro is False:
+            files = [name for name in files if may_be_mjcf(name)]
+        if not files:
             return cls(companions, named)
 
         def read() -> list[str]:
@@ -84,7 +87,7 @@ _PARTS_OF_MODELS = frozenset({"actor", "gazebo", "joint", "light", "link", "mode
 
 def _is_near_model(root: str) -> bool:
     """Whether somebody means a model by a root element, and no template or data of another program."""
-    return root in _PARTS_OF_MODELS or any(is_typo(root, each) for each in ("robot", "sdf"))
+    return root in _PARTS_OF_MODELS or any(is_typo(root, each) for each in ("robot", "sdf", "mujoco"))
 
 
 def folders_asked(words: Sequence[str]) -> tuple[Path, ...]:
@@ -97,4 +100,4 @@ def _is_companion(name: str) -> bool:
 
 
 def _may_be_part(name: str) -> bool:
-    return name.lower().endswith((*XACRO, ".urdf"))
+    return name.lower().endswith((*XACRO, ".urdf")) or may_be_mjcf(name)

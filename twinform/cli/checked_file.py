@@ -14,6 +14,7 @@ from twinform.cli.diagnostic_rows import diagnostic_of_row, row_of_diagnostic
 from twinform.cli.inputs import InputSource, read_model
 from twinform.compiler import LoadOptions, LoadResult, ReadOnlyPassError, as_refused, inspect
 from twinform.compiler.input.load_options import XACRO, ReadingOptions
+from twinform.compiler.input.root_names import may_be_mjcf
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, Location, Policy, Rule, Severity, rules
 from twinform.diagnostics.reporters import NO_TEXTS, FileFindings, FileTexts
@@ -189,6 +190,12 @@ class CheckTask:
             loaded = self._look_at_robot()
             if self.role == "robot" or not loaded.unreadable:
                 return loaded
+        if may_be_mjcf(self.name):
+            if self.named:
+                return self._look_at_robot()
+            from twinform.compiler.input.mjcf_parts import check_mjcf_part  # noqa: PLC0415 - as below
+
+            return check_mjcf_part(Path(self.name), self.load_options)
         from twinform.compiler.input.xacro_parts import check_part  # noqa: PLC0415 - few files are parts
 
         return check_part(Path(self.source.name), self.load_options)

@@ -24,6 +24,7 @@ from twinform.cli.model_files import (
 )
 from twinform.cli.nearest_projects import NearestProjects
 from twinform.compiler.input.load_options import XACRO, FileOptions, LoadOptions, ReadingOptions
+from twinform.compiler.input.root_names import ENOUGH, root_name
 from twinform.compiler.input.size_limits import LARGEST
 from twinform.diagnostics import Policy
 from twinform.file_access import STREAMS, Readable, read_up_to
@@ -37,19 +38,9 @@ if TYPE_CHECKING:
     from twinform.profiles import Profile
 
 
-# Bytes that contain the root element of every file, except those that begin with a very long
-# comment.
-_ENOUGH = 2**16
-
 _FORMATS = {b"robot": "urdf", b"sdf": "sdf", b"mujoco": "mjcf"}
 _SUFFIXES = {".urdf": "urdf", ".sdf": "sdf", ".world": "sdf", ".mjcf": "mjcf", ".json": "json"}
-_SKIPPED = ((b"<!--", b"-->"), (b"<?", b"?>"), (b"<!", b">"))
-"""What may stand before the root element: beginnings and ends."""
-
 _STDIN = "<stdin>"
-
-_NAME_END = b" \t\r\n/>"
-
 
 Remember = Callable[[object, Callable[[], list[str]]], list[str]]
 """Returns what a function returns for a key, perhaps from an earlier run."""
@@ -69,10 +60,10 @@ class InputSource(NamedTuple):
     @property
     def format(self) -> str | None:
         """The format by the beginning of the content, or else by the suffix; None if neither tells."""
-        head = self.content[:_ENOUGH] if isinstance(self.content, bytes) else _head(Path(self.content))
+        head = self.content[:ENOUGH] if isinstance(self.content, bytes) else _head(Path(self.content))
         if head.lstrip()[:1] == b"{":
             return "json"
-        return _FORMATS.get(_root_name(head)) or format_of_suffix(self.name)
+        return _FORMATS.get(root_name(head)) or format_of_suffix(self.name)
 
 
 def open_source(argument: str, size: int = LARGEST, stdin_name: str | None = None) -> InputSource:
@@ -106,28 +97,9 @@ def format_of_suffix(name: str) -> str | None:
 
 def _head(path: Path) -> bytes:
     try:
-        return Readable.of(path).read(path, _ENOUGH)[:_ENOUGH]
+        return Readable.of(path).read(path, ENOUGH)[:ENOUGH]
     except (OSError, ValueError):
         return b""  # the compiler reports it
-
-
-def _root_name(text: bytes) -> bytes:
-    """Return the name of the root element, behind comments, declarations and instructions."""
-    at = text.find(b"<")
-    while at >= 0:
-        end = next((end for start, end in _SKIPPED if text.startswith(start, at)), None)
-        if end is None:
-            return _name_at(text, at + 1)
-        past = text.find(end, at)
-        at = text.find(b"<", past) if past >= 0 else -1
-    return b""
-
-
-def _name_at(text: bytes, start: int) -> bytes:
-    end = start
-    while end < len(text) and text[end] not in _NAME_END:
-        end += 1
-    return text[start:end]
 
 
 _ARGUMENT = lazy_pattern(r"(?P<name>[A-Za-z_][\w.-]*):=(?P<value>.*)", re.DOTALL)

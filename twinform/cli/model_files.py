@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Protocol
 
 from twinform.compiler.input.load_options import XACRO
+from twinform.compiler.input.root_names import is_mjcf, may_be_mjcf
 from twinform.dataclass import dataclass
 
 SRDF = ".srdf"
@@ -62,6 +63,8 @@ def is_model(path: Path, *, named: bool = False) -> bool:
         return _is_xacro_model(path)
     if name.endswith(".json"):
         return _JSON_MARK in _start(path, _ENOUGH)
+    if may_be_mjcf(name):
+        return _is_mjcf_model(path) if is_mjcf(path) else named
     return named or name.endswith(_MODELS)
 
 
@@ -74,6 +77,8 @@ def is_checked(path: Path, *, named: bool = False) -> bool:
         return not start or start.startswith((b"<", b"\0<"))
     if name.endswith(PARAMETERS):
         return is_companion_file(path)
+    if may_be_mjcf(name):
+        return named or is_mjcf(path)
     return is_model(path, named=named) if name.endswith(".json") else named or name.endswith((*_MODELS, SRDF, *XACRO))
 
 
@@ -89,8 +94,9 @@ def is_companion_file(path: Path) -> bool:
 
 
 def is_text(path: Path, *, named: bool = False) -> bool:
-    """Whether a file is XML for a model or for macros, by its name."""
-    return named or path.name.lower().endswith((*_MODELS, *XACRO))
+    """Whether a file is XML for a model or for macros, by its name, or by its root where it is called `.xml`."""
+    name = path.name.lower()
+    return named or (is_mjcf(path) if may_be_mjcf(name) else name.endswith((*_MODELS, *XACRO)))
 
 
 def is_plain(path: Path, *, named: bool = False) -> bool:
@@ -120,3 +126,9 @@ def _is_xacro_model(path: Path) -> bool:
     if not data and path.is_symlink():
         return True  # reading it reports why the link is not followed
     return outline(data).is_robot if data.strip() else not path.is_file()
+
+
+def _is_mjcf_model(path: Path) -> bool:
+    from twinform.compiler.input.include_graph import is_mjcf_model  # noqa: PLC0415 - few folders have any
+
+    return is_mjcf_model(path)

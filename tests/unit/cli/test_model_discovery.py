@@ -5,7 +5,7 @@ import pytest
 
 import twinform
 from twinform.cli.inputs import NothingFoundError, discover
-from twinform.cli.model_files import Exclusion, is_model
+from twinform.cli.model_files import Exclusion, is_checked, is_model, is_text
 
 NO_EXCLUSION = Exclusion(())
 
@@ -174,3 +174,17 @@ def test_a_pattern_may_name_other_endings(tmp_path: Path) -> None:
     (tmp_path / "m.xacro").write_text(_XACRO.format("", _MACRO))
     assert is_model(tmp_path / "a.xml", named=True)
     assert not is_model(tmp_path / "m.xacro", named=True)
+
+
+_PENDULUM = '<mujoco><worldbody><body name="arm"><geom size="1"/></body></worldbody></mujoco>'
+
+
+def test_xml_is_a_model_where_its_root_says_that_it_is_mjcf(here: Path) -> None:
+    _write("a.mjcf", "b/c.xml", text=f"<!-- of <robot> -->\n{_PENDULUM}")
+    _write("package.xml", "robot.launch.xml", text='<?xml version="1.0"?><package format="3"/>')
+    _write("assets.xml", text="<mujoco><asset/></mujoco>")
+    _write("part.xml", text="<mujocoinclude><body/></mujocoinclude>")
+    assert discover(["."], Exclusion()) == ["a.mjcf", "b/c.xml"]
+    assert discover(["."], Exclusion(), is_checked) == ["a.mjcf", "assets.xml", "b/c.xml"]
+    assert discover(["."], Exclusion(), is_text) == ["a.mjcf", "assets.xml", "b/c.xml"]
+    assert "package.xml" in discover(["*.xml"], Exclusion())  # somebody asks for it

@@ -49,7 +49,7 @@ def test_the_document_knows_its_lines_in_the_expanded_text(monkeypatch: pytest.M
 
 
 def test_what_is_expanded_may_be_no_model_at_all(monkeypatch: pytest.MonkeyPatch) -> None:
-    loaded = read(monkeypatch, strict=False, text=b"<mujoco/>")
+    loaded = read(monkeypatch, strict=False, text=b"<scene/>")
     assert [(each.rule.name, each.location.file) for each in loaded.diagnostics] == [("unknown-root", "/arm.xacro")]
     assert loaded.document is None
     assert loaded.unreadable

@@ -12,12 +12,13 @@ from pathlib import Path, PurePosixPath
 from posixpath import normpath
 from typing import Any, cast
 
+from twinform.compiler.input.include_graph import is_mjcf_model
 from twinform.dataclass import dataclass
 from twinform.file_access import Readable
 from twinform.storage.writing import identities, is_stream
 
-PATTERNS = ("*.urdf", "*.sdf", "*.world", "*.urdf.xacro", "*.sdf.xacro", "*.world.xacro")
-"""Files that are models by their names; other xacro files are mostly parts of models."""
+PATTERNS = ("*.urdf", "*.sdf", "*.world", "*.mjcf", "*.urdf.xacro", "*.sdf.xacro", "*.world.xacro")
+"""Files that are models by their names, beside MJCF called `.xml`; other xacro files are mostly parts of models."""
 _MODEL, _NAME = "model", "name"
 """Columns of a table: the file, and what the model is called if that is not its path."""
 
@@ -74,6 +75,10 @@ def of_folder(source: Path, patterns: Sequence[str] = PATTERNS, results: Path | 
         folders[:] = [name for name in folders if not name.startswith(".") and (here / name).resolve() != left_out]
         inside = PurePosixPath(here.relative_to(source).as_posix())
         found += [str(inside / name) for name in files if any((inside / name).match(each) for each in patterns)]
+        if tuple(patterns) == PATTERNS:
+            found += [
+                str(inside / name) for name in files if name.lower().endswith(".xml") and is_mjcf_model(here / name)
+            ]
     return [ModelEntry(name, name) for name in sorted(found)]
 
 
@@ -130,7 +135,7 @@ def stem(name: str) -> str:
     return str(path)
 
 
-_ENDINGS = frozenset({".urdf", ".sdf", ".world", ".xml", ".json", ".xacro"})
+_ENDINGS = frozenset({".urdf", ".sdf", ".world", ".xml", ".mjcf", ".json", ".xacro"})
 
 
 def _index_by_stem(entries: Iterable[ModelEntry]) -> dict[str, str]:
@@ -216,6 +221,8 @@ def outputs(names: Iterable[str], to: str) -> Mapping[str, str]:
 
 
 def _choose_ending(name: str, to: str) -> str:
+    if to == "mjcf":
+        return "xml"
     return "world" if to == "sdf" and ".world" in map(str.lower, PurePosixPath(name).suffixes) else to
 
 

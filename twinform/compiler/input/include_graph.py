@@ -1,18 +1,21 @@
-"""What xacro files include, define and ask for, as far as that can be said without expanding them."""
+"""What files of xacro and MJCF include, define and ask for, as far as that can be said without expanding them."""
 
 import os
 from collections import defaultdict
 from collections.abc import Collection, Iterable, Iterator
 from dataclasses import field
 from fnmatch import fnmatchcase
+from itertools import islice
 from pathlib import Path
 from typing import Literal, NamedTuple
 from xml.parsers import expat
 
 from twinform.compiler.input.load_options import XACRO
+from twinform.compiler.input.root_names import is_mjcf
 from twinform.compiler.input.size_limits import LARGEST
 from twinform.compiler.resolve_uris import SearchPath, UriError
 from twinform.dataclass import dataclass
+from twinform.file_access import Readable
 from twinform.lazy import lazy_pattern
 from twinform.text import Lines, SourceText, UndecodableError
 from twinform.text.tokens import masked
@@ -21,6 +24,8 @@ _DEFINITIONS = frozenset({"arg", "include", "macro", "property", "insert_block"}
 """Elements of xacro that are no part of a robot by themselves."""
 _SHARED = frozenset({"material", "xacro:if", "xacro:unless"})
 """Elements that files with definitions for others have as well."""
+_MJCF = frozenset({"mujoco", "mujocoinclude"})
+"""The usual roots of MJCF files, and of those that they include."""
 _SEMANTICS = frozenset({"disable_collisions", "end_effector", "group", "group_state", "passive_joint", "virtual_joint"})
 """Elements of SRDF, which has the same root and is about a robot in another file."""
 _ASKED = lazy_pattern(r"\$\(\s*(?P<what>arg|find)\s+(?P<name>[\w.-]+)\s*\)")
@@ -56,7 +61,7 @@ UNKNOWN = Outline(is_robot=True)
 
 
 def outline(data: bytes, *, plain: bool = False) -> Outline:
-    """Return the outline of a xacro file, or of a `plain` URDF file, which other files may include.
+    """Return the outline of a file of xacro or MJCF, or of a `plain` URDF file, which other files may include.
 
     A plain file without a name for its robot that has elements of xacro, or no link, is a part of others, and so is
     one that has nothing but materials and definitions of xacro.
@@ -80,6 +85,16 @@ def outline(data: bytes, *, plain: bool = False) -> Outline:
         tuple(asked.get("find", ())),
         not _SEMANTICS.isdisjoint(tags.children),
     )
+
+
+def is_mjcf_model(path: Path) -> bool:
+    """Whether a file is MJCF with bodies or includes, and not only a part with assets or the like for others."""
+    if not is_mjcf(path):
+        return False
+    try:
+        return outline(Readable.of(path).read(path, LARGEST)).is_robot
+    except (OSError, ValueError):
+        return True  # reading it reports why
 
 
 def _asked(text: str) -> dict[str, list[Mention]]:
@@ -121,6 +136,8 @@ class _Tags:
         self._depth += 1
         if name == "xacro:include" and "filename" in attributes:
             self.includes.append(Mention(attributes["filename"], self._parser.CurrentLineNumber))
+        elif name == "include" and self.root in _MJCF and "file" in attributes:
+            self.includes.append(Mention(attributes["file"], self._parser.CurrentLineNumber))
         elif name == "xacro:arg" and "name" in attributes:
             self.arguments[attributes["name"]] = attributes.get("default")
 
@@ -135,11 +152,13 @@ class _Tags:
     def makes_robot(self) -> bool:
         """Whether a file makes a robot, and does not only define macros for others.
 
-        A robot has a name, and has parts in it, or includes and no macros.
+        A robot has a name, and has parts in it, or includes and no macros. In MJCF it has bodies, or includes.
         """
         # Tried on 386 files of public repositories: it finds all that expand to a robot, and no others.
         if self.root == "sdf":
             return True
+        if self.root in _MJCF:
+            return self.root == "mujoco" and not self.children.isdisjoint({"worldbody", "include"})
         names = self.children - _SEMANTICS
         parts = {name for name in names if name.removeprefix("xacro:") not in _DEFINITIONS}
         assembles = "xacro:include" in names and "xacro:macro" not in names
@@ -161,6 +180,8 @@ _WILD = lazy_pattern(r"[*?[]")
 _LONGEST = 4096
 """Characters of a pattern, as long as a path may be: an expression of a million takes seconds to compile."""
 _MOST_PATTERNS = 200
+_MOST_AROUND = 3
+"""The most folders around that of an included file of MJCF in which the main file may lie."""
 _MOST_INCLUDED = 1000
 """The most files that the includes of one file lead to, and that one file is asked for."""
 
@@ -205,11 +226,21 @@ class IncludeGraph:
         """Return the files that a file includes by addresses without expressions, and that are there."""
         if path not in self._targets:
             asked = self.outline(path, beside).includes[:_MOST_INCLUDED]
-            addresses = (self._address(each.text, path) for each in asked if len(each.text) <= _LONGEST)
-            files = (each.folder / each.rest for each in addresses if each.folder is not None and each.is_literal)
-            there = filter(None, map(self._existing, files))
-            self._targets[path] = tuple(dict.fromkeys(map(os.path.realpath, there)))
+            there = (self._target(each.text, path) for each in asked if len(each.text) <= _LONGEST)
+            self._targets[path] = tuple(dict.fromkeys(map(os.path.realpath, filter(None, there))))
         return self._targets[path]
+
+    def _target(self, uri: str, path: str) -> Path | None:
+        """Return the file that is there for an address in a file; None where its address does not tell."""
+        address = self._address(uri, path)
+        if address.folder is None or not address.is_literal:
+            return None
+        folders = (address.folder, *self._folders_around(path))
+        return next(filter(None, (self._existing(folder / address.rest) for folder in folders)), None)
+
+    def _folders_around(self, path: str) -> tuple[Path, ...]:
+        """Return folders in which the main file of one of MJCF may lie: what parts include is meant from there."""
+        return tuple(islice(Path(path).parent.parents, _MOST_AROUND)) if self.outline(path).root in _MJCF else ()
 
     def _existing(self, path: Path) -> Path | None:
         """Return a file that is there, or that the build of its package will put there; None for others."""

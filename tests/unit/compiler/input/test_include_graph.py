@@ -1,8 +1,11 @@
-"""The outline of a xacro file."""
+"""The outlines of files of xacro and MJCF, and which of them are only parts of others."""
+
+from pathlib import Path
 
 import pytest
 
-from twinform.compiler.input.include_graph import UNKNOWN, Mention, outline
+from twinform.compiler.input.include_graph import UNKNOWN, IncludeGraph, Mention, outline
+from twinform.compiler.resolve_uris import SearchPath
 
 _HEAD = b'<robot xmlns:xacro="http://www.ros.org/wiki/xacro" name="r">'
 
@@ -37,3 +40,31 @@ def test_what_has_no_outline_is_taken_for_a_robot(text: bytes) -> None:
 )
 def test_a_robot_has_parts_or_puts_files_together(inside: bytes, is_robot: bool) -> None:
     assert outline(_HEAD + inside + b"</robot>").is_robot is is_robot
+
+
+@pytest.mark.parametrize(
+    ("text", "is_robot"),
+    [
+        (b"<mujoco><worldbody/></mujoco>", True),
+        (b'<mujoco><include file="arm.xml"/></mujoco>', True),
+        (b"<mujoco><asset/></mujoco>", False),
+        (b'<mujoco><body name="a"/></mujoco>', False),
+        (b"<mujocoinclude><worldbody/></mujocoinclude>", False),
+    ],
+)
+def test_mjcf_with_bodies_or_includes_is_a_robot(text: bytes, is_robot: bool) -> None:
+    assert outline(text).is_robot is is_robot
+
+
+def test_what_files_of_mjcf_include_is_a_part(tmp_path: Path) -> None:
+    texts = {
+        "scene.xml": '<mujoco><include file="parts/arm.xml"/><worldbody/></mujoco>',
+        "parts/arm.xml": '<mujoco><include file="parts/hand.xml"/><worldbody/></mujoco>',  # from the main file on
+        "parts/hand.xml": '<mujoco><worldbody/><include file="hand.xml"/></mujoco>',
+        "alone.xml": "<mujoco><worldbody/></mujoco>",
+    }
+    (tmp_path / "parts").mkdir()
+    for name, text in texts.items():
+        (tmp_path / name).write_text(text)
+    roles = IncludeGraph(SearchPath.of(())).roles(str(tmp_path / name) for name in texts)
+    assert list(roles.values()) == ["robot", "part", "part", "robot"]

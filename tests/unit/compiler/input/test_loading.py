@@ -24,16 +24,16 @@ UNEXPANDED = "of xacro will not be expanded"
 
 ROOTS: dict[str, tuple[str, list[Finding]]] = {
     "another format": (
-        "\n<mujoco/>",
+        "\n<scene/>",
         [
             (
                 "unknown-root",
                 "error",
                 2,
-                "/mujoco",
-                "the root element is <mujoco>; expected <robot> or <sdf>",
-                "mujoco",
-                "robot or sdf",
+                "/scene",
+                "the root element is <scene>; expected <robot>, <sdf> or <mujoco>",
+                "scene",
+                "robot, sdf or mujoco",
             )
         ],
     ),
@@ -321,7 +321,7 @@ def test_the_size_of_a_source_is_its_elements_and_attributes() -> None:
     foreign = f'<sdf version="1.11"><model name="m"><x:a xmlns:x="urn:x"><x:b c="1"/></x:a>{MODEL}</model></sdf>'
     assert check(foreign.encode()).size == 11
     assert check(dumps(loads(STRANGE), to="json").encode()).size == check(STRANGE.encode()).size
-    assert check(b"<mujoco/>").size == 0
+    assert check(b"<scene/>").size == 0
 
 
 @pytest.mark.parametrize("enabled", [True, False])

@@ -31,7 +31,7 @@ REFUSED = {
     "default attributes": (b'<!DOCTYPE r [<!ATTLIST link name CDATA "a">]><robot name="r"><link/></robot>', "doctype"),
     "deep": (b"<a>" * 300 + b"</a>" * 300, "oversized-file"),
     "long text": (b'<robot name="' + b"r" * 11_000_000 + b'"/>', "oversized-file"),
-    "another format": (b"<mujoco/>", "unknown-root"),
+    "another format": (b"<scene/>", "unknown-root"),
 }
 
 
