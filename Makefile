@@ -25,7 +25,7 @@ DEMO := out/demo
 # tests start the command a thousand times: it must not be compiled each time
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: help sync fmt generate lint site pictures wheel floors pythons packaging test verify demo report imports bench latency vsix size before prove coverage fuzz clean
+.PHONY: help sync fmt generate lint site pictures screens wheel floors pythons packaging test verify demo report imports bench latency vsix size before prove coverage fuzz clean
 
 help: ## this list
 	@grep -hE '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## (.*)/\1\t\2/' | expand -t 12
@@ -107,6 +107,9 @@ site: $(SYNCED) ## build the documentation site into out/site; every warning is 
 
 pictures: $(SYNCED) ## take the pictures of the README and the site in a real browser
 	$(BIN)/python -m generators.pictures
+
+screens: $(SYNCED) # README, site, view and report at three widths, light and dark, to look at: out/screens
+	$(BIN)/python -m generators.screens
 
 wheel: $(SYNCED) # build the sdist and from it the wheel, which has to be the wheel of this tree; install it into an empty environment
 	rm -rf dist .wheel-venv

@@ -5,7 +5,7 @@ import io
 import shutil
 import sys
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Generator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -94,7 +94,7 @@ def _taken(picture: Picture, viewer: "Viewer", page: "Page") -> bytes:
     if any(picture.edit):
         texts[-1] = texts[-1].replace(*picture.edit)
     comparison = twinform.diff(*(text.encode() for text in texts)) if len(texts) > 1 else None
-    viewer.show(_subjects(texts, picture.files), comparison)
+    viewer.show(shown_subjects(texts, picture.files), comparison)
     page.goto(viewer.address)
     page.get_by_text("Joints", exact=True).wait_for()
     for text in picture.clicks:
@@ -107,14 +107,21 @@ def _taken(picture: Picture, viewer: "Viewer", page: "Page") -> bytes:
     return page.screenshot()
 
 
-def _report(page: "Page") -> bytes:
-    """The first screen of a report on two files."""
+@contextlib.contextmanager
+def longer_arm_report() -> Generator[Path]:
+    """A report on two files, until the end of the block."""
     first, second = Path("arm.urdf"), Path("longer_arm.urdf")
     with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
         shutil.copytree(ROOT / "examples", ".", dirs_exist_ok=True)
         second.write_text(first.read_text(encoding="utf-8").replace(*_LONGER), encoding="utf-8")
         path = Path("report.html").resolve()
         path.write_text(report.html(report.build_report(first, second)), encoding="utf-8")
+        yield path
+
+
+def _report(page: "Page") -> bytes:
+    """The first screen of a report on two files."""
+    with longer_arm_report() as path:
         page.goto(path.as_uri())
         frame = page.frame_locator("iframe")
         frame.locator("canvas").first.wait_for()
@@ -125,7 +132,8 @@ def _report(page: "Page") -> bytes:
         return page.screenshot()
 
 
-def _subjects(texts: Sequence[str], files: Sequence[str]) -> list[ViewSubject]:
+def shown_subjects(texts: Sequence[str], files: Sequence[str]) -> list[ViewSubject]:
+    """Read the texts of files as what a viewer shows."""
     options = LoadOptions()
     named = zip(texts, files, strict=True)
     found = (read_subject(text.encode(), options, name=str(ROOT / file))[0] for text, file in named)
