@@ -16,11 +16,12 @@ __all__ = ["to_mjcf"]
 def to_mjcf(source: Format, version: str | None, requested: Requested = USUAL) -> tuple[Pass, ...]:
     """The passes that make MJCF of a URDF or SDF document: by way of the newest SDF, and no other way."""
     newest = versions_of("sdf")[-1]
+    declared = None if source is Format.URDF else version
     if source is Format.URDF:
         in_sdf = tuple(_robot_on_the_world(newest, requested))
     else:
         in_sdf = () if version == newest else change_version(version, newest, requested)
-    return (*in_sdf, WriteMjcf.unchecked(carriers=requested.carriers))
+    return (*in_sdf, WriteMjcf.unchecked(carriers=requested.carriers, source_version=declared))
 
 
 def _robot_on_the_world(version: str, requested: Requested) -> Iterator[Pass]:

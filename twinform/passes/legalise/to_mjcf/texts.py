@@ -1,8 +1,175 @@
-"""Carriers in MJCF: what it cannot say, as `<custom><text name="twinform:..." data="..."/></custom>`."""
+"""Carriers in MJCF: what it cannot say, as `<custom><text name="twinform:..." data="..."/></custom>`.
 
+Each link, joint, frame, model or world has one text, which holds the partial node with all that MJCF leaves unsaid:
+`twinform:link:arm::hand` is about the link `hand` in the model `arm`. `twinform:document` holds the format and version
+of the source, and what stands beside the model or world that is written.
+
+Poses and axes are in the file, so only their frame and notation are in a text. So they stay true after an edit.
+"""
+
+from functools import cached_property
+
+from twinform.diagnostics import DiagnosticSink, rules
+from twinform.ir import Collision, Document, Format, Frame, Joint, Link, Model, Node, Opaque, Pose, Visual, World
+from twinform.ir.frames import MODEL, WORLD
+from twinform.passes.carriers.annotations import FROM, annotation, came_from
+from twinform.passes.carriers.carriers import NAMESPACE
+from twinform.passes.carriers.mjcf_texts import DOCUMENT, PREFIXES, bare_xml, text_element, text_name, xml_data
+from twinform.passes.carriers.partial_nodes import REST, WRITTEN, remainder
+from twinform.passes.carriers.said_by_mjcf import said_by_mjcf
 from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext
+from twinform.passes.legalise.to_urdf.express_axes import ExpressAxes
+from twinform.passes.legalise.to_urdf.flatten_for_urdf import flat_model
+from twinform.passes.legalise.to_urdf.resolve_joint_ends import ResolveJointEnds
+from twinform.passes.legalise.to_urdf.to_urdf_pass import UrdfKeeper
+from twinform.passes.shared.poses import OFFSET, POSE, offset_attributes, pose_attributes
+from twinform.schemas import XmlElement
+
+_MARK = f"{{{NAMESPACE}}}{REST}"
+_GROUPS = frozenset({"axis", "axis2", "limit", "dynamics", "surface"})
+"""Elements that only group others: what is in them counts, and not they themselves."""
+Shape = Visual | Collision
+Names = dict[tuple[type[Shape], str, str | None], str]
+"""The names in MJCF of visuals and collisions, by the scoped name of the link and their own."""
 
 
 def add_texts(context: MjcfContext) -> None:
     """Add a text to the `custom` section for each part that MJCF leaves unsaid. All other sections are complete."""
-    del context
+    texts = _Texts(context)
+    model = texts.flat
+    texts.add(DOCUMENT, "", texts.document)
+    if isinstance(context.holder, World):
+        texts.add("world", "", context.holder)
+    else:
+        texts.add("model", "", model)
+    for kind, parts in (("link", model.links), ("joint", model.joints), ("frame", model.frames)):
+        for each in parts:
+            texts.add(kind, each.name, each)
+
+
+class _Texts:
+    """Makes the texts of one file. All names are scoped names: the models have been flattened."""
+
+    def __init__(self, context: MjcfContext) -> None:
+        self.context = context
+        holder = context.holder
+        self.is_back = isinstance(holder, Model) and came_from(holder, Format.URDF)
+        self.around = ""
+        self.geoms = self._written_geoms()
+
+    @cached_property
+    def flat(self) -> Model:
+        """The model, or the world as one, flattened, with joints between links and axes in their frames.
+
+        Annotations say how it was. What these passes account for is nothing that MJCF lacks.
+        """
+        holder = self.context.holder
+        if isinstance(holder, World):
+            model = Model.unchecked(
+                name=holder.name, models=holder.models, joints=holder.joints, frames=holder.frames, source=holder.source
+            )
+        else:
+            model = holder
+        keeper = UrdfKeeper(DiagnosticSink(), carriers=True, back=self.is_back)
+        if model.models:
+            model = flat_model(model, keeper)
+        for step in (ResolveJointEnds.unchecked(), ExpressAxes.unchecked()):
+            model = step.run_model(model, keeper)
+        return model
+
+    @cached_property
+    def document(self) -> Document:
+        """The document with what stands beside the model or world that is written, and with its format and version."""
+        document, holder = self.context.document, self.context.holder
+        worlds = tuple(each for each in document.worlds if each is not holder)
+        models = () if not document.worlds else document.models
+        return document.copy(worlds=worlds, models=models, lights=document.lights if document.worlds else ())
+
+    def add(self, kind: str, name: str, node: Node) -> None:
+        """Add the text of a node, unless MJCF says all of it, and enter what it holds into the ledger."""
+        self.around = name if kind == "link" else ""
+        left = remainder(node, self.said, self.notes)
+        if left is None:
+            return
+        xml = bare_xml(left, kind)
+        self._account(xml, f"{kind} {name!r}" if name else f"the {kind}", node)
+        if self.context.keeper.carriers:
+            self.context.add("custom", text_element(text_name(kind, name), xml_data(xml)))
+
+    def said(self, node: Node) -> frozenset[str] | None:
+        """The fields of a node that this file says."""
+        if isinstance(node, Visual | Collision) and self._key(node) not in self.geoms:
+            return None
+        if isinstance(node, Link) and node.name not in self.context.written_bodies:
+            return None
+        if isinstance(node, Joint) and node.name not in self.context.written_joints:
+            return None
+        if isinstance(node, Frame) and node.name not in self.context.names.get("site", ()):
+            return None
+        return said_by_mjcf(node)
+
+    def notes(self, node: Node) -> tuple[Opaque, ...]:
+        """The annotations on a node about its names in MJCF, and about the frames and notation of its poses."""
+        found = [annotation(WRITTEN, attributes={"as": name}) for name in self._other_names(node)]
+        if isinstance(node, Document):
+            found += self._provenance(node)
+        if self.is_back:
+            return tuple(found)
+        if isinstance(node, Model):
+            found += self._offset()
+        pose: Pose | None = getattr(node, "pose", None)
+        attributes = pose_attributes(pose)
+        if attributes and self.said(node) is not None:
+            found.append(annotation(POSE, attributes=attributes))
+        return tuple(found)
+
+    def _provenance(self, document: Document) -> list[Opaque]:
+        """The annotations of the version of SDF that the source had, and of the prefixes in it."""
+        version = self.context.source_version or document.version
+        prefixes = [{"prefix": prefix, "uri": uri} for prefix, uri in document.namespaces if uri != NAMESPACE]
+        return [
+            annotation(FROM, attributes={"format": Format.SDF.value, "version": version}),
+            *(annotation(PREFIXES, attributes=each) for each in prefixes),
+        ]
+
+    def _offset(self) -> list[Opaque]:
+        """The annotation of where the model's own frame is in the world, which MJCF has no frame for."""
+        placed = self.context.tree.frames.pose(MODEL, WORLD, kind="model", base="world")
+        return [] if placed.is_identity else [annotation(OFFSET, attributes=offset_attributes(placed))]
+
+    def _other_names(self, node: Node) -> tuple[str, ...]:
+        """The names in MJCF of what stands for a node, where they are not its own name alone."""
+        context = self.context
+        if isinstance(node, Link):
+            names = (context.written_bodies.get(node.name, node.name),)
+        elif isinstance(node, Joint):
+            names = context.written_joints.get(node.name) or (node.name,)
+        elif isinstance(node, Visual | Collision):
+            names = (self.geoms.get(self._key(node), node.name or ""),)
+        else:
+            return ()
+        return () if names == (node.name,) else names
+
+    def _written_geoms(self) -> Names:
+        context, found = self.context, Names()
+        for name, link in context.tree.links.items():
+            for each in (*link.visuals, *link.collisions):
+                if id(each) in context.written_geoms:
+                    found[type(each), name, each.name] = context.written_geoms[id(each)]
+        return found
+
+    def _key(self, shape: Shape) -> tuple[type[Shape], str, str | None]:
+        return type(shape), self.around, shape.name
+
+    def _account(self, xml: XmlElement, what: str, node: Node) -> None:
+        """Enter what a partial element holds into the ledger; what is of our own namespace is in it already."""
+        for child in xml:
+            tag = str(child.tag)
+            if tag.startswith(f"{{{NAMESPACE}}}"):
+                continue
+            if tag in _GROUPS or child.find(_MARK) is not None:
+                self._account(child, what, node)
+                continue
+            weight = sum(1 + len(each.attrib) for each in child.iter())
+            message = f"<{tag}> of {what} has no equivalent in MJCF"
+            self.context.account(rules.NOT_IN_MJCF, message, node.location.at(tag), weight)

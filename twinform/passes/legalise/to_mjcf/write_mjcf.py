@@ -50,13 +50,15 @@ class WriteMjcf(AssetPass):
 
     name: ClassVar[str] = "write-mjcf"
     carriers: bool = True
+    source_version: str | None = None
+    """The version of SDF that the source had; without it, the newest."""
 
     def run(self, document: Document, sink: DiagnosticSink) -> Document:
         """The document in the terms of MJCF; unchanged after an error."""
         if sink.has_errors or document.format is Format.MJCF:
             return document
         holder = holder_of(document)
-        context = MjcfContext(document, holder, sink, Keeper(sink, self.carriers), self._assets)
+        context = MjcfContext(document, holder, sink, Keeper(sink, self.carriers), self._assets, self.source_version)
         try:
             _write_sections(context)
         except FrameError as error:

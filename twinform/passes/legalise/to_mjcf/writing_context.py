@@ -46,6 +46,7 @@ class MjcfContext:
         holder: the model or world of it that is written.
         sink: for findings and the ledger.
         keeper: for what MJCF cannot say: carried, or dropped where no carriers are asked for.
+        source_version: the version of SDF that the source had; None for the newest.
         assets: leads to the files that the document names.
         names: the names in use, by kind (`body`, `joint`, `geom`, `site`, `mesh`, ...): each kind has its own.
         written_joints: for each joint, by its scoped name, the names of the MJCF joints that stand for it: none for one
@@ -60,6 +61,7 @@ class MjcfContext:
     sink: DiagnosticSink
     keeper: Keeper
     assets: Assets = NO_ASSETS
+    source_version: str | None = None
     names: dict[str, set[str]] = field(default_factory=dict[str, set[str]])
     written_bodies: dict[str, str] = field(default_factory=dict[str, str])
     written_joints: dict[str, tuple[str, ...]] = field(default_factory=dict[str, tuple[str, ...]])

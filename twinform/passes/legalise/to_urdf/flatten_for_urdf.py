@@ -34,7 +34,7 @@ class FlattenForUrdf(ToUrdfPass):
         _refuse_includes(model, keeper)
         if keeper.sink.has_errors:
             return model
-        flat = _flatten(model, keeper) if model.models else model
+        flat = flat_model(model, keeper) if model.models else model
         names = _legal_names(flat)
         if not names:
             return flat
@@ -42,7 +42,8 @@ class FlattenForUrdf(ToUrdfPass):
         return with_old_names(flat, names) if keeper.carriers else flat
 
 
-def _flatten(model: Model, keeper: UrdfKeeper) -> Model:
+def flat_model(model: Model, keeper: UrdfKeeper) -> Model:
+    """The model without models in it: their parts have scoped names, and annotated frames stand for the models."""
     for nested, message in differing_rests(model):
         where = nested.location.at("allow_auto_disable")
         keeper.sink.account(Fate.APPROXIMATED, rules.NESTED_SETTING, f"{message}: Gazebo reads the outer one", where, 0)

@@ -1,0 +1,124 @@
+"""Carriers in MJCF: `<custom><text name="twinform:KIND:NAME" data="XML"/></custom>`.
+
+The data are the element of a partial node in the newest SDF. Newlines and tabs in it are written as references, since
+programs that save MJCF write them as they are, and other readers of XML take a newline in an attribute for a blank.
+"""
+
+import re
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+from lxml import etree
+
+from twinform.diagnostics import DiagnosticSink, Source
+from twinform.ir import Document, Element, Format, Frame, Joint, Light, Link, Model, Node, World
+from twinform.ir.record import maker
+from twinform.passes.carriers.absorb import CarrierError
+from twinform.passes.carriers.carriers import NAMESPACE
+from twinform.passes.carriers.carriers import PREFIX as TF
+from twinform.schemas import Context, XmlElement, node_xml, reader, table
+
+PREFIX = "twinform:"
+"""How the name of a text begins that is a carrier, perhaps behind the prefix that `attach` puts before names."""
+DOCUMENT = "document"
+"""The kind of the carrier with the format and version of the source."""
+PREFIXES = "prefix"
+"""The annotation in that carrier with a namespace of the source and the prefix that it had there."""
+KINDS: Mapping[str, type[Node]] = {
+    DOCUMENT: Document, "world": World, "model": Model, "link": Link, "joint": Joint, "frame": Frame, "light": Light,
+}  # fmt: skip
+"""The classes of nodes that have carriers of their own, by the names of their elements."""
+_REFERENCES = {"\n": "&#10;", "\t": "&#9;", "\r": "&#13;"}
+_PARSER = etree.XMLParser(
+    resolve_entities=False, no_network=True, load_dtd=False, remove_comments=True, remove_pis=True
+)
+
+
+class TextName(NamedTuple):
+    """The parts of the name of a carrier: what `attach` put before it, the kind of the node and its scoped name."""
+
+    attached: str
+    kind: str
+    name: str
+
+
+def text_name(kind: str, name: str = "") -> str:
+    """The name of the carrier of a node."""
+    return f"{PREFIX}{kind}:{name}" if name else f"{PREFIX}{kind}"
+
+
+def parse_text_name(written: str) -> TextName | None:
+    """The parts of a name; None for a text that is no carrier."""
+    attached, found, rest = written.partition(PREFIX)
+    if not found:
+        return None
+    kind, _, name = rest.partition(":")
+    return TextName(attached, kind, name)
+
+
+def text_element(name: str, data: str) -> Element:
+    """The `<text>` of a carrier."""
+    return Element.unchecked(name="text", attributes=(("name", name), ("data", data)))
+
+
+def bare_xml(node: Node, kind: str) -> XmlElement:
+    """The element of a partial node, without the white space of a layout."""
+    xml = node_xml("sdf", node, "sdf" if kind == DOCUMENT else kind)
+    _strip_layout(xml)
+    etree.cleanup_namespaces(xml, top_nsmap={TF: NAMESPACE})
+    return xml
+
+
+def node_data(node: Node, kind: str) -> str:
+    """The data of the carrier of a partial node."""
+    return xml_data(bare_xml(node, kind))
+
+
+def xml_data(xml: XmlElement) -> str:
+    """A tree as the data of a carrier."""
+    text = etree.tostring(xml, encoding="unicode")
+    return re.sub("[\n\t\r]", lambda found: _REFERENCES[found[0]], text)
+
+
+def parse_data(data: str) -> XmlElement:
+    """The tree in the data of a carrier.
+
+    Raises:
+        CarrierError: it is not XML, or has a document type declaration.
+    """
+    try:
+        xml = etree.fromstring(data.encode(), _PARSER)
+    except etree.XMLSyntaxError as error:
+        raise CarrierError(f"it is not XML: {error.msg}") from error
+    if xml.getroottree().docinfo.doctype:
+        raise CarrierError("it has a DOCTYPE")
+    return xml
+
+
+def read_node(data: str, kind: str, source: Source) -> Node:
+    """The partial node in the data of a carrier, all of which was written at one place.
+
+    Raises:
+        CarrierError: it is not XML, or not such an element of SDF.
+    """
+    xml = parse_data(data)
+    definition = "sdf" if kind == DOCUMENT else kind
+    if xml.tag != definition:
+        raise CarrierError(f"it holds a <{xml.tag}>")
+    for element in xml.iter():
+        element.sourceline = source.line  # pyright: ignore[reportAttributeAccessIssue] - it can be set
+    version, sink = table("sdf").newest, DiagnosticSink()
+    context = Context(sink, source.file, "sdf", version)
+    values: dict[str, Any] = reader("sdf", version).read(xml, context, definition, KINDS[kind], source)
+    if kind == DOCUMENT:
+        values["format"] = Format.SDF
+    return maker(KINDS[kind])(values)
+
+
+def _strip_layout(xml: XmlElement) -> None:
+    """Remove the white space that only lays out the tree."""
+    for element in xml.iter():
+        if element.tail and not element.tail.strip():
+            element.tail = None
+        if len(element) and element.text and not element.text.strip():
+            element.text = None

@@ -1,0 +1,175 @@
+"""Partial nodes: what a target leaves unsaid of a node, and how it is merged into the node that comes back.
+
+A partial node is of the class of the whole one and has its name, and none of the fields that the target says. Where
+something of it is said, the rest belongs to what says it: such a node has the annotation `<tf:rest/>`, and is stale
+where the target does not say the node any more. So an edit of the target always wins.
+"""
+
+from collections.abc import Callable
+from dataclasses import field
+from functools import cache
+from operator import is_
+from typing import Any, TypeVar, cast
+
+from twinform.dataclass import dataclass
+from twinform.ir import Axis, Dynamics, Limit, Node, Opaque, Surface
+from twinform.ir.node import NOT_CONTENT
+from twinform.ir.record import field_values, fields_of
+from twinform.passes.carriers.annotations import find_annotation, with_annotation, without_annotation
+
+AnyNode = TypeVar("AnyNode", bound=Node)
+
+REST = "rest"
+"""The annotation on a partial node that belongs to a part of the target which says the other half."""
+WRITTEN = "written"
+"""The annotation on a partial node with the name that it has in the target: `<tf:written as="base_2"/>`."""
+IDENTITY = frozenset({"name", "type", "kind"})
+"""Fields that a partial node has in common with the whole one, by which it is known."""
+_APART = IDENTITY | NOT_CONTENT | {"opaque"}
+EXISTENCE = "name"
+"""Among the fields that are said it means that the target says of every such node that it is there."""
+_LOOSE = (Axis, Dynamics, Limit, Surface)
+"""Groups of values, of which each counts for itself: the others may go."""
+Notes = Callable[[Node], tuple[Opaque, ...]]
+"""Returns annotations on how the source wrote a node that the target writes otherwise."""
+Said = Callable[[Node], frozenset[str] | None]
+"""Tells which fields of a node a target says; None where it says nothing of the node, not even that it is there."""
+
+
+def _no_notes(_node: Node) -> tuple[Opaque, ...]:
+    return ()
+
+
+def remainder(node: AnyNode, said: Said, notes: Notes = _no_notes) -> AnyNode | None:
+    """The partial node with what a target leaves unsaid, and with the notes on it; None where it says everything."""
+    fields = said(node)
+    if fields is None:
+        return node
+    more = notes(node)
+    update: dict[str, object] = {"opaque": (*more, *node.opaque)} if more else {}
+    is_said = EXISTENCE in fields
+    for name, value in field_values(node).items():
+        if name in _APART or _is_unwritten(value):
+            continue
+        usual = _default(node, name)
+        left = usual if name in fields else _left_of(value, said, notes, usual)
+        if left is not value:
+            update[name] = left
+            is_said = True
+    left = node.copy(**update) if update else node
+    if not _has_content(left):
+        return None
+    return with_annotation(left, REST) if is_said and not isinstance(node, _LOOSE) else left
+
+
+def _left_of(value: object, said: Said, notes: Notes, default: object) -> object:
+    """What is left of the value of a field that is not said as a whole; `default` where nothing is."""
+    if isinstance(value, Node):
+        left = remainder(value, said, notes)
+        return default if left is None else left
+    if _are_nodes(value):
+        nodes = cast("tuple[Node, ...]", value)
+        made = tuple(left for each in nodes if (left := remainder(each, said, notes)) is not None)
+        if not made:
+            return default
+        return value if len(made) == len(nodes) and all(map(is_, made, nodes)) else made
+    return value
+
+
+@dataclass(slots=True)
+class Merging:
+    """Merges partial nodes into the nodes of a document; `stale` are those that belong to nothing any more."""
+
+    stale: list[Node] = field(default_factory=list[Node])
+
+    def merge(self, node: AnyNode, partial: AnyNode) -> AnyNode:
+        """The node with the fields of a partial one that it has not: what it says itself always counts."""
+        update: dict[str, object] = {}
+        for name, value in field_values(partial).items():
+            if name in _APART or _is_unwritten(value):
+                continue
+            mine = getattr(node, name)
+            merged = self._merge_value(mine, value)
+            if merged is not mine:
+                update[name] = merged
+        more = without_annotation(partial, REST, WRITTEN).opaque
+        if more:
+            update["opaque"] = (*more, *node.opaque)
+        name = getattr(partial, "name", None)
+        if name is not None and getattr(node, "name", name) != name:
+            update["name"] = name
+        return node.copy(**update) if update else node
+
+    def _merge_value(self, mine: object, value: object) -> object:
+        if _are_nodes(value):
+            return self.merge_all(cast("tuple[Node, ...]", mine), cast("tuple[Node, ...]", value))
+        if not isinstance(value, Node):
+            return value if _is_unwritten(mine) else mine
+        if isinstance(mine, Node) and type(mine) is type(value):
+            return self.merge(mine, value)
+        return mine if mine is not None else self.added(value)
+
+    def merge_all(self, mine: tuple[AnyNode, ...], partials: tuple[AnyNode, ...]) -> tuple[AnyNode, ...]:
+        """The nodes with the partial ones of the same names merged into them, and the others behind them."""
+        merged = {_key(each, getattr(each, "name", None), place): each for place, each in enumerate(mine)}
+        for place, partial in enumerate(partials, len(merged)):
+            key = _key(partial, written_name(partial), place)
+            if key in merged:
+                merged[key] = self.merge(merged[key], partial)
+            elif (added := self.added(partial)) is not None:
+                merged[key] = added
+        return tuple(merged.values())
+
+    def added(self, partial: AnyNode) -> AnyNode | None:
+        """A node that the target does not say at all; None for the rest of one that it said once."""
+        if is_rest(partial):  # what it belongs to is gone
+            self.stale.append(partial)
+            return None
+        update: dict[str, object] = {}
+        for name, value in field_values(partial).items():
+            if isinstance(value, Node):
+                added: object = self.added(value)
+            elif _are_nodes(value):
+                added = tuple(each for one in value if (each := self.added(one)) is not None)
+            else:
+                continue
+            if added is not value and added != value:
+                update[name] = added
+        return partial.copy(**update) if update else partial
+
+
+def is_rest(partial: Node) -> bool:
+    """Whether a partial node is the rest of one of which the target says something."""
+    return find_annotation(partial, REST) is not None
+
+
+def written_name(partial: Node) -> str | None:
+    """The name that the target has for a node: its own, unless a note gives another one."""
+    written = find_annotation(partial, WRITTEN)
+    return getattr(partial, "name", None) if written is None else written.get("as")
+
+
+def _key(node: Node, name: str | None, place: int) -> tuple[type[Node], str | int]:
+    return type(node), place if name is None else name
+
+
+def _is_unwritten(value: object) -> bool:
+    return value is None or value == ()
+
+
+def _are_nodes(value: object) -> Any:
+    return isinstance(value, tuple) and bool(value) and isinstance(value[0], Node)  # pyright: ignore[reportUnknownArgumentType] - any
+
+
+def _has_content(node: Node) -> bool:
+    """Whether a node has more than a name."""
+    return any(name not in IDENTITY and not _is_unwritten(value) for name, value in field_values(node).items())
+
+
+def _default(node: Node, name: str) -> object:
+    return _defaults(type(node))[name]
+
+
+@cache
+def _defaults(kind: type[Node]) -> dict[str, object]:
+    return {name: each.default for name, each in fields_of(kind).items()}
