@@ -1,16 +1,107 @@
-"""Lights of MJCF: those of links, and those of the world."""
+"""Lights of MJCF: those of links, and those of the world, with their colors, attenuation and the cone of a spot."""
 
-from twinform.ir import Element
+import math
+
+from twinform.ir import Element, Light, World
+from twinform.ir.frames import WORLD
+from twinform.ir.node import Vector3
+from twinform.ir.transform import Transform, rounded
+from twinform.passes.legalise.to_mjcf.elements import Attributes, Value, make_element, position
+from twinform.passes.legalise.to_mjcf.kept_mjcf import with_kept
+from twinform.passes.legalise.to_mjcf.said_parts import (
+    child_number,
+    child_text,
+    untyped,
+    without_elements,
+    without_fields,
+)
 from twinform.passes.legalise.to_mjcf.writing_context import Body, MjcfContext
+
+_TYPES = frozenset({"point", "directional", "spot"})
+_DOWN: Vector3 = (0.0, 0.0, -1.0)
+_WHITE, _FAINT = (1.0, 1.0, 1.0), (0.1, 0.1, 0.1)
+"""The colors of a light of SDF that has none written."""
+_FADING = (("constant", 1.0), ("linear", 1.0), ("quadratic", 0.0))
+_FIELDS = ("type", "pose", "cast_shadows", "diffuse", "specular", "direction")
+_OF_ALL = frozenset(
+    {"light_on", "attenuation/range", "attenuation/linear", "attenuation/constant", "attenuation/quadratic"}
+)
+_OF_SPOTS = _OF_ALL | {"spot/outer_angle", "spot/falloff"}
+"""What MJCF says of a light."""
 
 
 def body_lights(context: MjcfContext, body: Body) -> list[Element]:
     """The lights of a link."""
-    del context, body
-    return []
+    return [_light(context, light, context.resolve(light.pose, body)) for light in body.link.lights]
 
 
 def world_lights(context: MjcfContext) -> list[Element]:
     """The lights of a world, or those beside the models of a document."""
-    del context
-    return []
+    holder, frames = context.holder, context.tree.frames
+    if not isinstance(holder, World):
+        return [_light(context, light, Transform.from_pose(light.pose)) for light in context.document.lights]
+    return [
+        _light(context, light, frames.resolve(light.pose, WORLD, WORLD, kind="world", base="world"))
+        for light in holder.lights
+    ]
+
+
+def _light(context: MjcfContext, light: Light, place: Transform) -> Element:
+    name = context.name("light", light.name, light.location)
+    element = make_element("light", [("name", name), *light_attributes(light, place)], source=light.source)
+    context.leave(light, unsaid_light(light))
+    return with_kept(element, light)
+
+
+def light_attributes(light: Light, place: Transform) -> Attributes:
+    """The attributes of a light at a place in its body."""
+    kind = _kind(light)
+    on, spot = untyped(light, "light_on"), untyped(light, "spot") if kind == "spot" else None
+    found: list[tuple[str, Value]] = [
+        ("type", kind),
+        ("pos", position(place) if any(place.translation) else None),
+        ("dir", _direction(light, place)),
+        ("castshadow", bool(light.cast_shadows)),
+        ("active", False if on is not None and on.text in {"false", "0"} else None),
+        ("diffuse", (light.diffuse or _WHITE)[:3]),
+        ("specular", (light.specular or _FAINT)[:3]),
+        *_attenuation(untyped(light, "attenuation"), kind),
+    ]
+    if spot is not None:
+        found += [("cutoff", _cutoff(spot)), ("exponent", child_number(spot, "falloff", default=0.0))]
+    return found
+
+
+def unsaid_light(light: Light) -> Light:
+    """What MJCF does not say of a light, such as the factor `intensity` and the inner angle of a spot."""
+    elements = _OF_SPOTS if _kind(light) == "spot" else _OF_ALL
+    return without_elements(without_fields(light, _FIELDS), elements)
+
+
+def _kind(light: Light) -> str:
+    return light.type if light.type in _TYPES else "point"
+
+
+def _direction(light: Light, place: Transform) -> Vector3 | None:
+    """Where a light shines in its body; None for down, which MJCF has as its default."""
+    written = light.direction if light.direction and any(light.direction) else _DOWN
+    direction = rounded(place.rotate(written))
+    return None if direction == _DOWN else direction
+
+
+def _attenuation(written: Element | None, kind: str) -> Attributes:
+    """How the light fades: constant, linear and quadratic part; a directional light does not.
+
+    SDF has a linear part of one where nothing is written, and MJCF has none.
+    """
+    if kind == "directional":
+        return []
+    parts = tuple(child_number(written, each, default=usual) for each, usual in _FADING)
+    reach = child_text(written, "range")
+    return [("range", None if reach is None else float(reach)), ("attenuation", parts)]
+
+
+def _cutoff(spot: Element) -> float | None:
+    """The angle between the axis and the edge of the cone in degrees: SDF has the whole angle of the cone."""
+    outer = child_number(spot, "outer_angle", default=0.0)
+    return math.degrees(outer) / 2 if outer > 0 else None

@@ -5,13 +5,14 @@ into another section of the file, such as an equality or a sensor, they append t
 """
 
 from collections import defaultdict
+from collections.abc import Mapping
 from dataclasses import field
 from functools import cached_property
 from typing import NamedTuple
 
 from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, Fate, Location, Rule, rules
-from twinform.ir import Document, Element, Link, Model, Pose, World
+from twinform.ir import Document, Element, Frame, Link, Model, Node, Pose, World
 from twinform.ir.frames import WORLD, Kind
 from twinform.ir.kinematic_tree import KinematicTree
 from twinform.ir.scopes import SCOPE, scoped_models
@@ -37,6 +38,13 @@ class Body(NamedTuple):
     moves: bool
 
 
+class ScopedFrame(NamedTuple):
+    """A named frame, and its name in the outermost scope."""
+
+    name: str
+    frame: Frame
+
+
 @dataclass(slots=False)
 class MjcfContext:
     """The state of one conversion to MJCF.
@@ -52,6 +60,7 @@ class MjcfContext:
         written_joints: for each joint, by its scoped name, the names of the MJCF joints that stand for it: none for one
             that is fixed.
         written_geoms: for each visual or collision, by its identity, the name of its geom.
+        left: nodes whose untyped elements MJCF says in part, by identity, each with what MJCF leaves of it.
         files: `asset` elements by what they are made of, so that equal ones are shared.
         sections: what stands outside of `worldbody`, by the name of the section, in the order in which it was added.
     """
@@ -66,6 +75,7 @@ class MjcfContext:
     written_bodies: dict[str, str] = field(default_factory=dict[str, str])
     written_joints: dict[str, tuple[str, ...]] = field(default_factory=dict[str, tuple[str, ...]])
     written_geoms: dict[int, str] = field(default_factory=dict[int, str])
+    left: dict[int, tuple[Node, Node]] = field(default_factory=dict[int, tuple[Node, Node]])
     files: dict[object, str] = field(default_factory=dict[object, str])
     sections: dict[str, list[Element]] = field(default_factory=lambda: defaultdict(list))
 
@@ -88,9 +98,31 @@ class MjcfContext:
             return frozenset()
         return frozenset(name for name in self.tree.links if name.startswith(static))
 
+    @cached_property
+    def frames_by_link(self) -> Mapping[str, list[ScopedFrame]]:
+        """The named frames by the links that they move with, or `world`.
+
+        Raises:
+            FrameError: a frame is not known, or frames go round in a circle.
+        """
+        found: dict[str, list[ScopedFrame]] = defaultdict(list)
+        models = [("", self.holder)] if isinstance(self.holder, Model) else _models_of(self.holder)
+        scopes = [each for top, model in models for each in scoped_models(model, top)]
+        frames = [("", each) for each in self.holder.frames] if isinstance(self.holder, World) else []
+        for scope, frame in (*frames, *((scope, each) for scope, model in scopes for each in model.frames)):
+            name = scope + frame.name
+            found[self.tree.frames.body(name, kind="frame")].append(ScopedFrame(name, frame))
+            # before sensors are given theirs, because others refer to a frame by its name
+            self.name("site", name, frame.location)
+        return found
+
     def add(self, section: str, element: Element) -> None:
         """Add an element to a section beside `worldbody`, such as `equality` or `sensor`."""
         self.sections[section].append(element)
+
+    def leave(self, node: Node, left: Node) -> None:
+        """Note what MJCF leaves of a node, whose fields and untyped elements it says in part."""
+        self.left[id(node)] = (node, left)  # the node too, which keeps its identity from being used again
 
     def name(self, kind: str, wanted: str | None, where: Location) -> str | None:
         """A name that no other part of this kind has: the one that is wanted, or with a number behind it.
