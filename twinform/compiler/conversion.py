@@ -98,7 +98,9 @@ def convert_once(
         # without opening any of them. URDF has none, so there those of the chosen model are
         # expanded, and no others; for an older SDF those that would be another robot in it.
         newer = _newer_includes(loaded.document, request)
-        if loaded.accepted and (request.expand_includes or request.to == "urdf" or request.model is not None or newer):
+        if loaded.accepted and (
+            request.expand_includes or request.to in {"urdf", "mjcf"} or request.model is not None or newer
+        ):
             from twinform.compiler.expand_includes import expand  # noqa: PLC0415 - most conversions need no includes
 
             wanted = None if request.expand_includes else _includes_to_expand(loaded.document, request, newer)
@@ -137,7 +139,7 @@ def _includes_to_expand(
     if request.model is None and request.to == "sdf":
         return lambda include: id(include) in newer
     wanted = wanted_includes(document, request.model)
-    if request.to == "urdf" or document is None:
+    if request.to in {"urdf", "mjcf"} or document is None:
         return wanted
     placed = {id(one.model) for one in candidates(document)} | newer
     return lambda include: id(include) in placed and wanted(include)

@@ -1,10 +1,128 @@
-"""Assets of MJCF: meshes and height fields, one for each file and scale."""
+"""Assets of MJCF: meshes and height fields, one for each file and scale, and the paths of their files.
 
-from twinform.ir.geometry import Mesh
+MuJoCo knows no packages: URIs are looked up, and written as paths from the folder of the document.
+"""
+
+import os
+from pathlib import Path, PurePosixPath
+from urllib.parse import unquote
+
+from twinform.diagnostics import Location, rules
+from twinform.ir import Node
+from twinform.ir.geometry import Heightmap, Mesh
+from twinform.ir.node import Vector3
+from twinform.passes.framework.assets import AssetError
+from twinform.passes.legalise.to_mjcf.elements import Value, make_element
 from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext
+
+_MESHES = frozenset({"obj", "stl", "msh"})
+"""The formats that MuJoCo reads without plugins."""
+_CONVERT = "--passes 'convert-meshes{for=mujoco}' writes it as OBJ or STL beside the result"
+_HEADER, _TRIANGLE = 84, 50
+"""The bytes of a binary STL file before its triangles, and of each of them."""
 
 
 def mesh_asset(context: MjcfContext, mesh: Mesh) -> str | None:
-    """The name of the asset of a mesh; None where MuJoCo cannot read it."""
-    del context, mesh
+    """The name of the asset of a mesh; None, with a finding, where MuJoCo cannot read the file."""
+    uri = (mesh.uri or "").strip()
+    scale = None if mesh.scale in (None, (1.0, 1.0, 1.0)) else mesh.scale
+    key = ("mesh", uri, scale)
+    if key not in context.files:
+        context.files[key] = _new_mesh(context, mesh, uri, scale)
+    return context.files[key]
+
+
+def _new_mesh(context: MjcfContext, mesh: Mesh, uri: str, scale: Vector3 | None) -> str | None:
+    why = _why_unread(context, mesh, uri)
+    if why is not None:
+        context.sink.report(rules.UNREADABLE_MESH, f"mesh {uri!r} {why}", mesh.location, found=uri, help=_CONVERT)
+        return None
+    file = file_path(context, uri, mesh.location)
+    name = context.name("mesh", PurePosixPath(file).stem or "mesh", mesh.location)
+    attributes: list[tuple[str, Value]] = [("name", name), ("file", file), ("scale", scale)]
+    context.add("asset", make_element("mesh", attributes, (), mesh.source))
+    return name
+
+
+def _why_unread(context: MjcfContext, mesh: Mesh, uri: str) -> str | None:
+    """Why MuJoCo cannot read a mesh; None where it can."""
+    if any(part.element and part.element.name == "submesh" for part in mesh.opaque):
+        return "is meant in part, and MuJoCo reads a whole file"
+    if not uri:
+        return "has no file"
+    kind = PurePosixPath(uri).suffix.lower().removeprefix(".")
+    if kind not in _MESHES:
+        return (
+            f"is of the format {kind!r}, which MuJoCo does not read" if kind else "has no suffix, by which MuJoCo goes"
+        )
+    if mesh.scale is not None and 0.0 in mesh.scale:
+        return "has a scale of 0, which MuJoCo refuses"
+    if kind == "stl" and (path := _find(context, uri)) is not None and not _is_binary_stl(path):
+        return "is STL as text, and MuJoCo reads it as binary alone"
     return None
+
+
+def _is_binary_stl(path: Path) -> bool:
+    """Whether a file has the size that its number of triangles asks for; true where it cannot be read."""
+    try:
+        with path.open("rb") as file:
+            head = file.read(_HEADER)
+        size = path.stat().st_size
+    except OSError:
+        return True
+    return len(head) == _HEADER and size >= _HEADER + _TRIANGLE * int.from_bytes(head[80:84], "little")
+
+
+def height_field(context: MjcfContext, shape: Heightmap) -> str | None:
+    """The name of the asset of a terrain; None, with a finding, where MuJoCo cannot read the file."""
+    uri = (shape.uri or "").strip()
+    if PurePosixPath(uri).suffix.lower() != ".png":
+        message = f"terrain {uri!r} is no PNG, and MuJoCo reads no other image"
+        context.sink.report(rules.UNSAYABLE_SHAPE, message, shape.location, found=uri, help="save it as PNG, in gray")
+        return None
+    size = vector_in(shape, "size", (1.0, 1.0, 1.0))
+    key = ("hfield", uri, size)
+    if key not in context.files:
+        file = file_path(context, uri, shape.location)
+        name = context.name("hfield", PurePosixPath(file).stem, shape.location)
+        # Half of the extents, the height above the origin, and how far the ground goes down below it.
+        extent = (size[0] / 2, size[1] / 2, size[2], max(size[2], 1.0) / 100)
+        attributes: list[tuple[str, Value]] = [("name", name), ("file", file), ("size", extent)]
+        context.add("asset", make_element("hfield", attributes, (), shape.source))
+        context.files[key] = name
+    return context.files[key]
+
+
+def vector_in(node: Node, name: str, usual: Vector3) -> Vector3:
+    """Three numbers in an untyped element of a node, or the usual ones where it has none."""
+    for part in node.opaque:
+        if not part.at and part.element is not None and part.element.name == name and part.element.text:
+            x, y, z = map(float, part.element.text.split())
+            return (x, y, z)
+    return usual
+
+
+def file_path(context: MjcfContext, uri: str, where: Location) -> str:
+    """The path of a file as MuJoCo needs it: from the folder of the document, or absolute where it has none."""
+    _, separator, rest = uri.partition("://")
+    if not separator:
+        return uri
+    found = _find(context, uri)
+    folder = context.assets.folder
+    if found is None:
+        path = unquote(rest)
+        message = f"{uri!r} leads to no file, and is written as {path!r}"
+        help_ = "--path FOLDER, or GZ_SIM_RESOURCE_PATH and ROS_PACKAGE_PATH, say where packages and models are"
+        context.sink.report(rules.UNMAPPED_URI, message, where, found=uri, help=help_)
+        return path
+    if folder is None:
+        return found.as_posix()
+    return Path(os.path.relpath(found.absolute(), folder.absolute())).as_posix()
+
+
+def _find(context: MjcfContext, uri: str) -> Path | None:
+    """The file of a URI; None where there is none that may be read."""
+    try:
+        return context.assets.find(uri)
+    except AssetError:
+        return None

@@ -15,7 +15,7 @@ from twinform.passes.carriers.annotations import is_synthesized
 from twinform.passes.carriers.joint_chains import part_of
 from twinform.passes.legalise.to_mjcf.elements import make_element, placement
 from twinform.passes.legalise.to_mjcf.geoms import geom_elements
-from twinform.passes.legalise.to_mjcf.inertials import inertial_elements
+from twinform.passes.legalise.to_mjcf.inertials import inertial_elements, report_weightless, weight_of
 from twinform.passes.legalise.to_mjcf.joints import joint_elements
 from twinform.passes.legalise.to_mjcf.kept_mjcf import with_kept
 from twinform.passes.legalise.to_mjcf.lights import body_lights
@@ -75,6 +75,7 @@ class _BodyTree:
         for name in reversed(self.holds):
             inner = [made.pop(child) for child in self.children.get(name, ())]
             made[name] = self._element(bodies[name], self.holds[name], [*parts.pop(name), *inner])
+        self._report_weightless(bodies)
         return [made[name] for name in self.children[None]]
 
     def _in_order(self) -> Iterator[str]:
@@ -86,6 +87,8 @@ class _BodyTree:
         """Whether a link is one that a pass put between two joints of a chain: both move the body below it."""
         link = self.tree.links[name]
         if not (is_synthesized(link) or part_of(link)) or link.visuals or link.collisions or link.sensors:
+            return False
+        if not weight_of(link).is_nothing:
             return False
         return len(self.tree.joints_below(name)) == 1 and self.tree.joint_above(name) is not None
 
@@ -112,6 +115,18 @@ class _BodyTree:
             or (hold.parent is not None and above[hold.parent].moves)
         )
         return Body(name, scope_of(name), link, written, moves)
+
+    def _report_weightless(self, bodies: dict[str, Body]) -> None:
+        """Report bodies that MuJoCo refuses because they move and weigh nothing, with all that is fixed to them."""
+        heavy: set[str] = set()
+        for name in reversed(self.holds):  # children first
+            body, hold = bodies[name], self.holds[name]
+            is_fixed = not body.moves or (bool(hold.joints) and all(each.type == "fixed" for each in hold.joints))
+            if name in heavy or weight_of(body.link).can_move:
+                if is_fixed and hold.parent is not None:
+                    heavy.add(hold.parent)
+            elif not is_fixed:
+                report_weightless(self.context, body)
 
     def _parts(self, body: Body, hold: Hold) -> list[Element]:
         """What is in a body beside the bodies in it."""

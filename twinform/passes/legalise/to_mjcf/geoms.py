@@ -1,10 +1,155 @@
-"""Geoms of MJCF: the collisions of a link, which touch, and its visuals, which are only seen."""
+"""Geoms of MJCF: the collisions of a link, which touch, and its visuals, which are only seen.
 
-from twinform.ir import Element
+A visual is a geom that touches nothing (`contype` and `conaffinity` 0) and weighs nothing. Visuals are in group 2,
+which viewers show; collisions are in group 3, which they hide, where the model has any visuals. Sizes are half sizes.
+"""
+
+from collections.abc import Sequence
+from typing import NamedTuple, TypeVar
+
+from twinform.diagnostics import rules
+from twinform.ir import Collision, Element, Visual
+from twinform.ir.defaults import sizes
+from twinform.ir.geometry import (
+    Box,
+    Capsule,
+    Cylinder,
+    Ellipsoid,
+    Empty,
+    Heightmap,
+    Mesh,
+    Plane,
+    Shape,
+    Sphere,
+)  # fmt: skip
+from twinform.ir.node import Vector3
+from twinform.ir.pose import Pose
+from twinform.ir.transform import Transform
+from twinform.passes.legalise.to_mjcf.assets import height_field, mesh_asset, vector_in
+from twinform.passes.legalise.to_mjcf.contacts import touch_of
+from twinform.passes.legalise.to_mjcf.elements import Attributes, Value, make_element, placement
+from twinform.passes.legalise.to_mjcf.kept_mjcf import with_kept
+from twinform.passes.legalise.to_mjcf.materials import look_of
 from twinform.passes.legalise.to_mjcf.writing_context import Body, MjcfContext
+from twinform.passes.mesh_jobs.mesh_files import NoMeshError
+
+AnyPart = TypeVar("AnyPart", Visual, Collision)
+_SEEN, _TOUCHED = 2, 3
+"""The groups of visuals and of collisions."""
+_SEEN_ONLY: Attributes = (("contype", "0"), ("conaffinity", "0"), ("group", str(_SEEN)), ("density", "0"))
+_GRID = 1.0
+"""The distance in m of the lines that are drawn on a plane."""
+_UP: Vector3 = (0.0, 0.0, 1.0)
+
+
+class Solid(NamedTuple):
+    """The attributes of a geom that say its shape, and where the shape is in the frame of its visual or collision."""
+
+    attributes: Sequence[tuple[str, Value]]
+    at: Transform = Transform()
 
 
 def geom_elements(context: MjcfContext, body: Body) -> list[Element]:
-    """The geoms of a body: its collisions and then its visuals."""
-    del context, body
-    return []
+    """The geoms of a body: its collisions and then its visuals.
+
+    Raises:
+        FrameError: a frame is not known, or frames go round in a circle.
+    """
+    found: list[Element] = []
+    for collision in body.link.collisions:
+        if (shape := _shape_of(context, body, collision)) is not None:
+            touch = [*touch_of(context, body, collision), *([("group", str(_TOUCHED))] if context.has_visuals else [])]
+            found.append(_geom(context, body, collision, shape, touch))
+    for visual in body.link.visuals:
+        if (shape := _shape_of(context, body, visual)) is not None:
+            look = [*_SEEN_ONLY, *look_of(context, body, visual)]
+            found.append(_geom(context, body, visual, shape, look))
+    return found
+
+
+def _geom(context: MjcfContext, body: Body, part: AnyPart, shape: Solid, more: Attributes) -> Element:
+    name = context.name_in(body, "geom", part.name, part.location)
+    if name is not None:
+        context.written_geoms[id(part)] = name
+    at = context.resolve(part.pose, body).compose(shape.at)
+    attributes = [("name", name), *shape.attributes, *placement(at), *more]
+    return with_kept(make_element("geom", attributes, (), part.source), part)
+
+
+def _shape_of(context: MjcfContext, body: Body, part: AnyPart) -> Solid | None:
+    """The shape of a visual or collision; None where MJCF has none for it, which is reported."""
+    written = part.geometry.shape if part.geometry else None
+    if written is None or isinstance(written, Empty):
+        context.leave(part, part)
+        return None
+    try:
+        # A mesh stands for a shape that MJCF lacks.
+        replaced = context.replacer.replace(part, body.name)
+        shape = replaced.geometry.shape if replaced.geometry and replaced.geometry.shape else written
+        found = _solid(context, body, shape)
+    except NoMeshError as error:
+        context.leave(part, part)
+        message = f"{_called(part, body)} is a {written.kind}, which MJCF does not have"
+        context.sink.report(rules.UNSAYABLE_SHAPE, message, part.location, found=written.kind, help=str(error))
+        return None
+    if found is None:
+        context.leave(part, part)
+    elif isinstance(found, str):
+        context.leave(part, part)
+        context.sink.report(rules.UNSAYABLE_SHAPE, f"{_called(part, body)} {found}", part.location, found=written.kind)
+        return None
+    return found
+
+
+def _called(part: Visual | Collision, body: Body) -> str:
+    return f"{type(part).__name__.lower()} {part.name!r} of link {body.name!r}"
+
+
+def _solid(context: MjcfContext, body: Body, shape: Shape) -> Solid | str | None:
+    """The shape in MJCF; why it has none; or None where that was reported."""
+    match shape:
+        case Mesh():
+            name = mesh_asset(context, shape)
+            return None if name is None else Solid([("type", "mesh"), ("mesh", name)])
+        case Plane():
+            if body.moves:
+                return "is a plane on a link that moves, and MuJoCo takes planes on fixed bodies alone"
+            return _plane(shape)
+        case Heightmap():
+            name = height_field(context, shape)
+            at = Pose.unchecked(xyz=vector_in(shape, "pos", (0.0, 0.0, 0.0)))
+            return None if name is None else Solid([("type", "hfield"), ("hfield", name)], Transform.from_pose(at))
+        case Box() | Sphere() | Ellipsoid() | Cylinder() | Capsule():
+            size = _size(shape)
+            if min(size) <= 0.0:
+                return "has a size of 0, which MuJoCo refuses"
+            return Solid([("type", shape.kind), ("size", size)])
+        case _:
+            return f"has the shape {shape.kind}, which MJCF does not have"
+
+
+def _size(shape: Box | Sphere | Ellipsoid | Cylinder | Capsule) -> tuple[float, ...]:
+    """The sizes as MJCF has them: half of those of a box, and of the length of a cylinder or capsule."""
+    found = sizes(shape)
+    match shape:
+        case Box():
+            return tuple([length / 2 for length in found])
+        case Cylinder() | Capsule():
+            return (found[0], found[1] / 2)
+        case _:
+            return found
+
+
+def _plane(shape: Plane) -> Solid:
+    """A plane, which faces z in MJCF; what touches it has no end, and what is seen of it has the written size."""
+    x, y = shape.size or (1.0, 1.0)
+    return Solid([("type", "plane"), ("size", (x / 2, y / 2, _GRID))], _turn_up_to(shape.normal or _UP))
+
+
+def _turn_up_to(normal: Vector3) -> Transform:
+    """The shortest turn from z to a direction of any length."""
+    x, y, z = normal
+    length = (x * x + y * y + z * z) ** 0.5
+    if (x, y) == (0.0, 0.0):
+        return Transform() if z >= 0 else Transform.from_pose(Pose.unchecked(quat_xyzw=(1.0, 0.0, 0.0, 0.0)))
+    return Transform.from_pose(Pose.unchecked(quat_xyzw=(-y, x, 0.0, length + z)))

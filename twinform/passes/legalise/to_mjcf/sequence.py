@@ -21,7 +21,13 @@ def to_mjcf(source: Format, version: str | None, requested: Requested = USUAL) -
         in_sdf = tuple(_robot_on_the_world(newest, requested))
     else:
         in_sdf = () if version == newest else change_version(version, newest, requested)
-    return (*in_sdf, WriteMjcf.unchecked(carriers=requested.carriers, source_version=declared))
+    write = WriteMjcf.unchecked(
+        carriers=requested.carriers,
+        source_version=declared,
+        shape_error=requested.shape_error,
+        side_files=requested.side_files,
+    )
+    return (*in_sdf, write)
 
 
 def _robot_on_the_world(version: str, requested: Requested) -> Iterator[Pass]:

@@ -14,10 +14,12 @@ from twinform.passes.legalise.to_mjcf.elements import make_element
 from twinform.passes.legalise.to_mjcf.equalities import add_equalities
 from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements
 from twinform.passes.legalise.to_mjcf.lights import world_lights
+from twinform.passes.legalise.to_mjcf.mimics import add_gearboxes, add_mimics
 from twinform.passes.legalise.to_mjcf.options import add_options
 from twinform.passes.legalise.to_mjcf.sites import world_sites
 from twinform.passes.legalise.to_mjcf.texts import add_texts
 from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext
+from twinform.passes.shared.replaced_shapes import ShapeReplacer
 
 _COMPILER = make_element(
     "compiler",
@@ -34,6 +36,8 @@ _SECTIONS = (
     "option", "size", "visual", "statistic", "default", "custom", "extension", "asset", "worldbody", "contact",
     "deformable", "equality", "tendon", "actuator", "sensor", "keyframe",
 )  # fmt: skip
+_LACKS = frozenset({"cone", "polyline", "image"})
+"""The kinds of shapes for which a mesh stands, where there can be one."""
 _SINGLE = frozenset({"compiler", "option", "size", "visual", "statistic"})
 """Sections that are one element with attributes: what is added to them is merged."""
 
@@ -52,13 +56,18 @@ class WriteMjcf(AssetPass):
     carriers: bool = True
     source_version: str | None = None
     """The version of SDF that the source had; without it, the newest."""
+    shape_error: float | None = None
+    side_files: bool = True
 
     def run(self, document: Document, sink: DiagnosticSink) -> Document:
         """The document in the terms of MJCF; unchanged after an error."""
         if sink.has_errors or document.format is Format.MJCF:
             return document
         holder = holder_of(document)
-        context = MjcfContext(document, holder, sink, Keeper(sink, self.carriers), self._assets, self.source_version)
+        keeper = Keeper(sink, self.carriers)
+        # MuJoCo looks meshes up by their paths, so that these have no prefix.
+        replacer = ShapeReplacer(keeper, "MJCF", _LACKS.__contains__, self.shape_error, None, self.side_files)
+        context = MjcfContext(document, holder, sink, keeper, replacer, self._assets, self.source_version)
         try:
             _write_sections(context)
         except FrameError as error:
@@ -84,6 +93,8 @@ def _write_sections(context: MjcfContext) -> None:
     bodies = body_elements(context)
     for each in (*world_lights(context), *world_sites(context), *bodies):
         context.add("worldbody", each)
+    add_mimics(context)
+    add_gearboxes(context)
     add_equalities(context)
     add_contacts(context)
     add_actuators(context)

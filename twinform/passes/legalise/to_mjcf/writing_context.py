@@ -12,14 +12,14 @@ from typing import NamedTuple
 
 from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, Fate, Location, Rule, rules
-from twinform.ir import Document, Element, Frame, Link, Model, Node, Pose, World
+from twinform.ir import Document, Element, Frame, Link, Model, Node, Pose, World, replace_fields
 from twinform.ir.frames import WORLD, Kind
 from twinform.ir.kinematic_tree import KinematicTree
 from twinform.ir.scopes import SCOPE, scoped_models
 from twinform.ir.transform import Transform
 from twinform.passes.carriers.carriers import Keeper
 from twinform.passes.framework.assets import NO_ASSETS, Assets
-from twinform.passes.shared.nodes import reserve_name
+from twinform.passes.shared.replaced_shapes import ShapeReplacer
 
 _RESERVED = {"body": frozenset({"world"})}
 """Names that MuJoCo gives itself, by kind."""
@@ -56,7 +56,9 @@ class MjcfContext:
         keeper: for what MJCF cannot say: carried, or dropped where no carriers are asked for.
         source_version: the version of SDF that the source had; None for the newest.
         assets: leads to the files that the document names.
+        replacer: makes meshes that stand for shapes which MJCF lacks.
         names: the names in use, by kind (`body`, `joint`, `geom`, `site`, `mesh`, ...): each kind has its own.
+        numbers: how far the numbers behind a name have come, by kind and name.
         written_joints: for each joint, by its scoped name, the names of the MJCF joints that stand for it: none for one
             that is fixed.
         written_geoms: for each visual or collision, by its identity, the name of its geom.
@@ -69,14 +71,16 @@ class MjcfContext:
     holder: Model | World
     sink: DiagnosticSink
     keeper: Keeper
+    replacer: ShapeReplacer
     assets: Assets = NO_ASSETS
     source_version: str | None = None
+    numbers: dict[tuple[str, str], int] = field(default_factory=dict[tuple[str, str], int])
     names: dict[str, set[str]] = field(default_factory=dict[str, set[str]])
     written_bodies: dict[str, str] = field(default_factory=dict[str, str])
     written_joints: dict[str, tuple[str, ...]] = field(default_factory=dict[str, tuple[str, ...]])
     written_geoms: dict[int, str] = field(default_factory=dict[int, str])
     left: dict[int, tuple[Node, Node]] = field(default_factory=dict[int, tuple[Node, Node]])
-    files: dict[object, str] = field(default_factory=dict[object, str])
+    files: dict[object, str | None] = field(default_factory=dict[object, str | None])
     sections: dict[str, list[Element]] = field(default_factory=lambda: defaultdict(list))
 
     @cached_property
@@ -86,17 +90,27 @@ class MjcfContext:
         Raises:
             FrameError: a frame is not known, or frames go round in a circle.
         """
-        return KinematicTree(self.holder)
+        return KinematicTree(_without_gearboxes(self.holder))
 
     @cached_property
     def static_links(self) -> frozenset[str]:
         """The scoped names of the links of static models, and of those nested in them."""
-        models = [("", self.holder)] if isinstance(self.holder, Model) else _models_of(self.holder)
-        held = [(scope, each) for top, model in models for scope, each in scoped_models(model, top)]
-        static = tuple(scope for scope, each in held if each.static)
+        static = tuple(scope for scope, each in self.models if each.static)
         if not static:
             return frozenset()
         return frozenset(name for name in self.tree.links if name.startswith(static))
+
+    @cached_property
+    def models(self) -> tuple[tuple[str, Model], ...]:
+        """All models, from the outside in, with the prefix of the names of their parts."""
+        holder = self.holder
+        tops = [("", holder)] if isinstance(holder, Model) else [(each.name + SCOPE, each) for each in holder.models]
+        return tuple(found for scope, model in tops for found in scoped_models(model, scope))
+
+    @cached_property
+    def has_visuals(self) -> bool:
+        """Whether any link has a visual."""
+        return any(link.visuals for link in self.tree.links.values())
 
     @cached_property
     def frames_by_link(self) -> Mapping[str, list[ScopedFrame]]:
@@ -106,10 +120,8 @@ class MjcfContext:
             FrameError: a frame is not known, or frames go round in a circle.
         """
         found: dict[str, list[ScopedFrame]] = defaultdict(list)
-        models = [("", self.holder)] if isinstance(self.holder, Model) else _models_of(self.holder)
-        scopes = [each for top, model in models for each in scoped_models(model, top)]
         frames = [("", each) for each in self.holder.frames] if isinstance(self.holder, World) else []
-        for scope, frame in (*frames, *((scope, each) for scope, model in scopes for each in model.frames)):
+        for scope, frame in (*frames, *((scope, each) for scope, model in self.models for each in model.frames)):
             name = scope + frame.name
             found[self.tree.frames.body(name, kind="frame")].append(ScopedFrame(name, frame))
             # before sensors are given theirs, because others refer to a frame by its name
@@ -132,10 +144,26 @@ class MjcfContext:
         if not wanted:
             return None
         used = self.names.setdefault(kind, set(_RESERVED.get(kind, ())))
-        made = reserve_name(wanted, used)
+        made = wanted
+        while made in used:
+            # Where all links have a "visual", to count from one each time would take quadratic time.
+            number = self.numbers[kind, wanted] = self.numbers.get((kind, wanted), 0) + 1
+            made = f"{wanted}_{number}"
+        used.add(made)
         if made != wanted:
             message = f"{kind} {wanted!r} is called {made!r}: names are unique in all of MJCF"
             self.sink.account(Fate.APPROXIMATED, rules.RENAMED, message, where, 0)
+        return made
+
+    def name_in(self, body: Body, kind: str, wanted: str | None, where: Location) -> str | None:
+        """A name for a part of a body: where another body has one of this name, the body's name stands before it."""
+        if not wanted:
+            return None
+        if wanted not in self.names.get(kind, ()):
+            return self.name(kind, wanted, where)
+        made = self.name(kind, f"{body.written}_{wanted}", where)
+        message = f"{kind} {wanted!r} of link {body.name!r} is called {made!r}: names are unique in all of MJCF"
+        self.sink.account(Fate.APPROXIMATED, rules.RENAMED, message, where, 0)
         return made
 
     def resolve(self, pose: Pose | None, body: Body) -> Transform:
@@ -183,5 +211,8 @@ def scope_of(name: str) -> str:
     return name[: name.rindex(SCOPE) + len(SCOPE)] if SCOPE in name else ""
 
 
-def _models_of(world: World) -> list[tuple[str, Model]]:
-    return [(model.name + SCOPE, model) for model in world.models]
+def _without_gearboxes(holder: Model | World) -> Model | World:
+    """Return a model or world without the gearboxes in it: they couple joints, and hold no link."""
+    joints = tuple(joint for joint in holder.joints if joint.type != "gearbox")
+    models = tuple(_without_gearboxes(model) for model in holder.models)
+    return replace_fields(holder, joints=joints, models=models)
