@@ -31,10 +31,10 @@ _COMPILER = make_element(
         ("inertiafromgeom", "false"),
     ],
 )
-# MuJoCo takes them in any order; this is the one of its documentation.
+# MuJoCo takes them in any order; this is the one of its documentation, with our texts behind what people read.
 _SECTIONS = (
-    "option", "size", "visual", "statistic", "default", "custom", "extension", "asset", "worldbody", "contact",
-    "deformable", "equality", "tendon", "actuator", "sensor", "keyframe",
+    "option", "size", "visual", "statistic", "default", "extension", "asset", "worldbody", "contact", "deformable",
+    "equality", "tendon", "actuator", "sensor", "keyframe", "custom",
 )  # fmt: skip
 _LACKS = frozenset({"cone", "polyline", "image"})
 """The kinds of shapes for which a mesh stands, where there can be one."""
