@@ -29,6 +29,7 @@ from twinform.compiler.input.xml_recovery import (
     LIMITS,
     LOST_BRACKET,
     XmlError,
+    exceeds_limits,
     first_fatal,
     is_full,
     prefix_without_namespace,
@@ -156,7 +157,7 @@ def _recover(
     flaw = first_fatal(log, text) or (_unlisted_flaw(text) if is_full(log) else None)
     if root is None or flaw is not None:
         flaw = flaw or XmlError(error.position[0], error.position[1], error.msg or "not XML", None)
-        if any(entry.type_name == "ERR_RESOURCE_LIMIT" for entry in log):
+        if any(map(exceeds_limits, log)):
             refuse_excess(Excess(f"{LIMITS} (column {flaw.column})", Location(line=flaw.line, path="/")), sink)
         places = SyntaxPlaces(text)
         where = places.location(flaw) if text == source else Location(line=flaw.line, path="/")

@@ -114,6 +114,11 @@ def with_single_colons(text: bytes) -> tuple[bytes, list[XmlError]]:
     return b"".join((*pieces, text[copied:])), flaws
 
 
+def exceeds_limits(entry: LogEntry) -> bool:
+    """Whether libxml2 refuses a file for its size or depth; before 2.14 the error has no name."""
+    return entry.type_name == "ERR_RESOURCE_LIMIT" or "XML_PARSE_HUGE" in entry.message
+
+
 def is_full(log: Iterable[LogEntry]) -> bool:
     """Whether there may be more errors than libxml2 lists."""
     # A hundred harmless errors may hide the one that leaves doubt about the tree.

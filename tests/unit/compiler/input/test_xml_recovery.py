@@ -99,10 +99,10 @@ def test_what_is_refused_reports_where_in_the_line() -> None:
 
 def test_what_libxml2_gives_up_is_too_large() -> None:
     (found,) = findings(b"<a>\n" * 300)
-    assert (found.rule.name, found.location, found.help) == ("oversized-file", Location("r.urdf", 257, "/"), None)
-    assert found.message == (
-        "elements are more than 256 deep, a text has more than 10 MB, or entities make more of it than they are "
-        "(column 3)"
+    assert (found.rule.name, found.location.path, found.help) == ("oversized-file", "/", None)
+    assert found.location.line in {257, 258}  # libxml2 before 2.14 takes one more
+    assert found.message.startswith(
+        "elements are more than 256 deep, a text has more than 10 MB, or entities make more of it than they are (column "
     )
 
 

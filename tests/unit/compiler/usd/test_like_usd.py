@@ -77,7 +77,8 @@ def _parsed(text: str) -> dict[str, Any]:
     """What USD's parser says of each body, joint and shape, by its path."""
     layer: Any = import_module("pxr.Sdf").Layer.CreateAnonymous(".usda")
     layer.ImportFromString(text)
-    found = UsdPhysics.UsdPhysicsLoadStageFromPrimRange(Usd.Stage.Open(layer), ["/"])
+    parse = getattr(UsdPhysics, "UsdPhysicsLoadStageFromPrimRange", None) or UsdPhysics.LoadUsdPhysicsFromRange
+    found = parse(Usd.Stage.Open(layer), ["/"])
     described = ((kind, each) for kind, (_, listed) in found.items() for each in listed)
     return {str(each.primPath): each for kind, each in described if str(kind) != "Articulation"}
 
