@@ -11,10 +11,11 @@ below it stand rows, two blanks deeper for each level:
       pose             ?  &pose                        -> pose
 
 A row is a name (with `@` that of an attribute), a count (`1`, `?`, `*`, `+`), a value type or a `&definition` (neither:
-a container), then keys, flags and the place in the IR.
+a container), then keys, flags and the place in the IR. A line `& definition` stands for all rows of that definition.
 
 Keys are `default`, `min`, `above` (an excluded `min`), `max`, `enum`, `since`, `until`, `unit`, `dialect` (whose
-element it is where it is not the format's) and `also` (values of dialects beside those of `enum`). Flags are `any`
+element it is where it is not the format's), `also` (values of dialects beside those of `enum`) and `names` (the
+elements of which the value is the name, with `|` between them). Flags are `any`
 (free content), `deprecated`, `expected` (readers want it written although it has a default, or its element has no
 effect without it), `strict` (a reader refuses what is out of bounds, or no robot can be so), `aside` (readers of the
 robot itself skip it) and `last` (where one may stand and several do, readers take the last).
@@ -34,7 +35,7 @@ import math
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import field, replace
 from functools import cache
-from itertools import pairwise
+from itertools import chain, pairwise
 from operator import itemgetter
 from typing import Any, TypeVar
 
@@ -45,10 +46,12 @@ from twinform.package_files import package_files
 
 # A notation of our own: Python literals would need four times the lines and a type checker's
 # patience, and TOML and CSV cannot nest. It is documented and parsed here only.
-_LINE = lazy_pattern(r"(?P<indent> *)(?P<name>@?[\w.]++)(?P<rest>.*)")
+_LINE = lazy_pattern(r"(?P<indent> *)(?P<name>@?[\w.]++|&(?= ))(?P<rest>.*)")
 _WORD = lazy_pattern(r'->\s*\S+|\w+=(?:"[^"]*"|\S+)|\S+')
 _COUNTS = frozenset("1?*+")
 _FLAGS = frozenset({"any", "aside", "deprecated", "expected", "last", "strict"})
+_ALL_OF = "&"
+"""The name of a line that stands for all rows of a definition."""
 
 
 @dataclass(slots=True)
@@ -73,6 +76,7 @@ class Fact:
     unit: str | None = None
     dialect: str | None = None
     also: tuple[tuple[str, str], ...] = ()
+    names: tuple[str, ...] = ()
     since: Version = (0, 0)
     until: Version = (99, 99)
     any: bool = False
@@ -190,8 +194,17 @@ class FactDefinitions(Mapping[str, Fact]):
     def __getitem__(self, name: str) -> Fact:
         if name not in self._parsed:
             self._parsed[name] = fact = next(parse_facts(*self._lines[name]))
+            self._fill_in(fact)
             _note_other_words(fact)
         return self._parsed[name]
+
+    def _fill_in(self, fact: Fact) -> None:
+        """Put the rows of other definitions where a fact refers to all of them."""
+        for row in fact.rows:
+            self._fill_in(row)
+        if any(row.name == _ALL_OF for row in fact.rows):
+            groups = [self[row.reference or ""].rows if row.name == _ALL_OF else [row] for row in fact.rows]
+            fact.rows[:] = chain.from_iterable(groups)
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._lines)
@@ -241,6 +254,8 @@ def _fact(name: str, words: list[str], where: str) -> Fact:
             setattr(fact, word, True)
         elif word.startswith("&"):
             fact.reference = word[1:]
+        elif name == _ALL_OF:
+            fact.reference = word
         elif equals:
             _set(fact, key, value.strip('"'), where)
         elif fact.type is None:
@@ -258,8 +273,8 @@ def _set(fact: Fact, key: str, value: str, where: str) -> None:
             setattr(fact, key, float(value.split(maxsplit=1)[0]))  # of a vector, all components have one bound
         case "since" | "until":
             setattr(fact, key, parse_version(value))
-        case "enum":
-            fact.enum = tuple(value.split("|"))
+        case "enum" | "names":
+            setattr(fact, key, tuple(value.split("|")))
         case "also":
             pairs = [word.partition(":") for word in value.split("|")]
             fact.also = tuple((word, dialect) for word, _, dialect in pairs)

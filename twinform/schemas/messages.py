@@ -288,6 +288,13 @@ def deprecated(context: Context, element: XmlElement) -> None:
     context.report(rules.DEPRECATED_ELEMENT, element, message, found=str(element.tag))
 
 
+def deprecated_attribute(context: Context, element: XmlElement, name: str) -> None:
+    """An attribute on its way out."""
+    what = f"{name!r} of <{element.tag}>"
+    message = f"{what} is deprecated in {context.format.upper()} {print_version(context.version)}"
+    context.report(rules.DEPRECATED_ELEMENT, element, message, f"@{name}", found=name)
+
+
 def missing_text(context: Context, element: XmlElement, expected: str) -> None:
     """A required value that was left blank."""
     message = f"<{element.tag}> is empty; expected {expected}"

@@ -202,12 +202,14 @@ def attribute_reader(
 
 def _value_reader(row: Fact, types: Types, at: str, words: tuple[str, ...], *, keep: bool) -> ReadAttribute:
     value_type = types[row.type or "string"]
-    parse, check, dialect = value_type.parse, value_check(row), row.dialect
+    parse, check, dialect, deprecated = value_type.parse, value_check(row), row.dialect, row.deprecated
     store = value_store(row, row.place) if keep and row.place else None
 
     def read(element: XmlElement, name: str, text: str, node: Data, context: Context) -> None:
         if dialect:
             messages.dialect_attribute(context, element, name, dialect)
+        if deprecated:
+            messages.deprecated_attribute(context, element, name)
         try:
             value = parse(text)
         except ValueError:
@@ -305,7 +307,7 @@ def stripped(text: str) -> str:
 def value_check(row: Fact) -> Check | None:
     """Return the checks of a value beyond its type."""
     if row.enum:
-        return _word_check(row)
+        return _words_check(row) if row.type == "words" else _word_check(row)
     if row.bounds is None:
         return None
     low, high = row.bounds
@@ -336,6 +338,17 @@ def _word_check(row: Fact) -> Check:
         else:
             step = row.name if row.is_attribute else ""
             messages.unlisted_value(context, element, step, value, row.enum)
+
+    return check
+
+
+def _words_check(row: Fact) -> Check:
+    """Return the check of a list of words, which asks for each of them."""
+    check_word = _word_check(row)
+
+    def check(element: XmlElement, value: tuple[str, ...], context: Context) -> None:
+        for word in value:
+            check_word(element, word, context)
 
     return check
 

@@ -6,11 +6,13 @@ Every parser raises `ValueError` for text that the type's XSD pattern refuses, a
 import re
 from collections.abc import Callable
 from math import isfinite
+from typing import TypeVar
 
 from twinform.dataclass import dataclass
 from twinform.lazy import lazy_pattern
 
 Parser = Callable[[str], object]
+_Word = TypeVar("_Word")
 
 
 @dataclass(frozen=True, slots=True)
@@ -177,7 +179,97 @@ _SDF = _URDF | {
     "time": ValueType(_time, "seconds, or seconds and nanoseconds"),
 }
 
-VALUE_TYPES = {"urdf": _URDF, "sdf": _SDF, "mjcf": _URDF}
+_SPELLED = {"true": True, "false": False}
+_DECIMAL = lazy_pattern(r"[-+]?[0-9]+")
+_MEMORY = lazy_pattern(r"-1|[0-9]+[KMGTPEkmgtpe]?")
+_AXES = lazy_pattern("[xyzXYZ]{3}")
+_BLANKS = lazy_pattern(r"[ \t\n\r]+")
+_LARGEST = 2**31
+
+
+def _exact_bool(text: str) -> bool:
+    """Parse `true` or `false` as MuJoCo does, which takes nothing else."""
+    if text not in _SPELLED:
+        raise ValueError
+    return _SPELLED[text]
+
+
+def _whole(text: str) -> int:
+    """Parse a decimal number of 32 bits."""
+    word = text.strip(" \t\n\r")
+    if not _DECIMAL.fullmatch(word) or len(word) > 11 or not -_LARGEST <= int(word) < _LARGEST:
+        raise ValueError
+    return int(word)
+
+
+def _spelled(pattern: re.Pattern[str]) -> Parser:
+    """Return the parser of texts that a pattern describes."""
+
+    def parse(text: str) -> str:
+        if not pattern.fullmatch(text):
+            raise ValueError
+        return text
+
+    return parse
+
+
+def _list(parse_word: Callable[[str], _Word], least: int, most: int | None) -> Callable[[str], tuple[_Word, ...]]:
+    """Return the parser of several words with blanks between them; `most` is None for any number."""
+
+    def parse(text: str) -> tuple[_Word, ...]:
+        words = _ascii(text).split(None, -1 if most is None else most)
+        if len(words) < least or (most is not None and len(words) > most):
+            raise ValueError
+        return tuple(map(parse_word, words))
+
+    return parse
+
+
+def _words(text: str) -> tuple[str, ...]:
+    return tuple(filter(None, _BLANKS.split(text)))  # names may have blanks of other scripts
+
+
+def list_type(base: str, least: int, most: int) -> str:
+    """Return the name of the type of lists of `double` or `int` with some length: `double.3`, `int.1-31`."""
+    return f"{base}.{least}" if least == most else f"{base}.{least}-{most}"
+
+
+LENGTHS = {
+    "double": ((2, 2), (4, 4), (6, 6), (7, 7), (1, 2), (1, 3), (1, 5), (1, 6), (1, 10), (2, 6)),
+    "int": ((2, 2), (3, 3), (1, 3), (1, 31)),
+}
+"""The lengths of the lists that MJCF has, beside vectors of three numbers and of any number."""
+_COUNTED = {1: "one", 2: "two", 3: "three", 4: "four", 5: "five", 6: "six", 7: "seven", 10: "ten"}
+
+
+def _counted_lists(base: str, parse_word: Parser, called: str) -> dict[str, ValueType]:
+    """Return the types of lists by their names, for numbers that are `called` something in messages."""
+    made: dict[str, ValueType] = {}
+    for least, most in LENGTHS[base]:
+        count = _COUNTED.get(most, str(most))
+        count = count if least == most else f"{_COUNTED[least]} to {count}"
+        made[list_type(base, least, most)] = ValueType(_list(parse_word, least, most), f"{count} {called}")
+    return made
+
+
+_MJCF = {
+    "string": ValueType(_string, "text"),
+    "words": ValueType(_words, "words"),
+    "bool": ValueType(_exact_bool, "true or false"),
+    "int": ValueType(_whole, "a whole number"),
+    "double": ValueType(_loose_float, "a number"),
+    "vector3": ValueType(_list(_loose_float, 3, 3), "three numbers"),
+    "quaternion": ValueType(_list(_loose_float, 4, 4), "four numbers: w x y z"),
+    "color4": ValueType(_list(_loose_float, 4, 4), "four numbers: red green blue alpha"),
+    "doubles": ValueType(_list(_loose_float, 0, None), "numbers"),
+    "ints": ValueType(_list(_whole, 0, None), "whole numbers"),
+    "memory": ValueType(_spelled(_MEMORY), "a number of bytes, perhaps with K, M, G, T, P or E behind it, or -1"),
+    "axes": ValueType(_spelled(_AXES), "three letters of x, y, z, X, Y, Z"),
+    **_counted_lists("double", _loose_float, "numbers"),
+    **_counted_lists("int", _whole, "whole numbers"),
+}
+
+VALUE_TYPES = {"urdf": _URDF, "sdf": _SDF, "mjcf": _MJCF}
 
 
 def parse_value(type: str, text: str, format: str = "sdf") -> object:

@@ -10,6 +10,7 @@ from lxml import etree
 
 from twinform.dataclass import dataclass
 from twinform.schemas.facts import Fact
+from twinform.schemas.value_types import LENGTHS, list_type
 from twinform.schemas.xml import XmlElement
 
 XS = "{http://www.w3.org/2001/XMLSchema}"
@@ -28,11 +29,15 @@ _BOOL = "[tT][rR][uU][eE]|[fF][aA][lL][sS][eE]|0|1"
 
 @dataclass(frozen=True, slots=True)
 class TokenCount:
-    """Text of a fixed number of tokens with one pattern."""
+    """Text of a number of tokens with one pattern; `most` is None for any number of them.
+
+    `exact` is whether no blanks may stand around a single one.
+    """
 
     pattern: str
     least: int = 1
-    most: int = 1
+    most: int | None = 1
+    exact: bool = False
 
 
 _URDF = {
@@ -55,7 +60,25 @@ _SDF = _URDF | {
     "time": TokenCount(_FINITE, 1, 2),
 }
 
-TOKENS = {"urdf": _URDF, "sdf": _SDF, "mjcf": _URDF}
+# MuJoCo takes `infinity` and hexadecimal numbers too, which no file of the corpus has.
+_DECIMAL = r"[+\-]?[0-9]+"
+_MJCF = {
+    "words": TokenCount(r"\S+", 0, None),
+    "bool": TokenCount("true|false", exact=True),
+    "int": TokenCount(_DECIMAL),
+    "double": TokenCount(_NUMBER),
+    "vector3": TokenCount(_NUMBER, 3, 3),
+    "quaternion": TokenCount(_NUMBER, 4, 4),
+    "color4": TokenCount(_NUMBER, 4, 4),
+    "doubles": TokenCount(_NUMBER, 0, None),
+    "ints": TokenCount(_DECIMAL, 0, None),
+    "memory": TokenCount("-1|[0-9]+[KMGTPEkmgtpe]?", exact=True),
+    "axes": TokenCount("[xyzXYZ]{3}", exact=True),
+    **{list_type("double", *lengths): TokenCount(_NUMBER, *lengths) for lengths in LENGTHS["double"]},
+    **{list_type("int", *lengths): TokenCount(_DECIMAL, *lengths) for lengths in LENGTHS["int"]},
+}
+
+TOKENS = {"urdf": _URDF, "sdf": _SDF, "mjcf": _MJCF}
 """By format and value type; `string` is any text."""
 
 _WORD = "word"
@@ -134,7 +157,9 @@ class Values:
             _declare_tokens(simple_type, tokens)
 
     def _words(self, row: Fact, simple_type: XmlElement) -> None:
-        """The words of an enumeration."""
+        """The words of an enumeration, of which there may be a list."""
+        if row.type == "words":
+            simple_type = xs(xs(simple_type, "list"), "simpleType")
         if self.expressions:
             simple_type = xs(xs(simple_type, "union", memberTypes="expression"), "simpleType")
         _enumerate(xs(simple_type, "restriction", base="xs:string"), self._enum(row))
@@ -184,7 +209,7 @@ def _literally(word: str) -> str:
 def _declare_tokens(simple_type: XmlElement, tokens: TokenCount) -> None:
     restriction = xs(simple_type, "restriction")
     if tokens.least == tokens.most == 1:
-        restriction.set("base", "xs:token")
+        restriction.set("base", "xs:string" if tokens.exact else "xs:token")
         xs(restriction, "pattern", value=tokens.pattern)
         return
     items = xs(xs(xs(restriction, "simpleType"), "list"), "simpleType")
@@ -193,4 +218,5 @@ def _declare_tokens(simple_type: XmlElement, tokens: TokenCount) -> None:
         xs(restriction, "length", value=str(tokens.least))
     else:
         xs(restriction, "minLength", value=str(tokens.least))
-        xs(restriction, "maxLength", value=str(tokens.most))
+        if tokens.most is not None:
+            xs(restriction, "maxLength", value=str(tokens.most))

@@ -1,4 +1,4 @@
-"""Text to value and back, for each value type of both formats."""
+"""Text to value and back, for each value type of the formats."""
 
 import math
 
@@ -32,6 +32,34 @@ EXPECTED = {
         "color4": "four numbers from 0 to 1: red green blue alpha",
         "pose": "six numbers, x y z roll pitch yaw, or seven with a quaternion: x y z qx qy qz qw",
         "time": "seconds, or seconds and nanoseconds",
+    },
+    "mjcf": {
+        "string": "text",
+        "words": "words",
+        "bool": "true or false",
+        "int": "a whole number",
+        "double": "a number",
+        "vector3": "three numbers",
+        "quaternion": "four numbers: w x y z",
+        "color4": "four numbers: red green blue alpha",
+        "doubles": "numbers",
+        "ints": "whole numbers",
+        "memory": "a number of bytes, perhaps with K, M, G, T, P or E behind it, or -1",
+        "axes": "three letters of x, y, z, X, Y, Z",
+        "double.2": "two numbers",
+        "double.4": "four numbers",
+        "double.6": "six numbers",
+        "double.7": "seven numbers",
+        "double.1-2": "one to two numbers",
+        "double.1-3": "one to three numbers",
+        "double.1-5": "one to five numbers",
+        "double.1-6": "one to six numbers",
+        "double.1-10": "one to ten numbers",
+        "double.2-6": "two to six numbers",
+        "int.2": "two whole numbers",
+        "int.3": "three whole numbers",
+        "int.1-3": "one to three whole numbers",
+        "int.1-31": "one to 31 whole numbers",
     },
 }
 
@@ -76,6 +104,19 @@ GOOD: list[tuple[str, str, str, object]] = [
     ("sdf", "color4", "1 0 0 1", (1.0, 0.0, 0.0, 1.0)),
     ("sdf", "color", "1 0 0", (1.0, 0.0, 0.0)),
     ("sdf", "color", "1 0 0 1", (1.0, 0.0, 0.0, 1.0)),
+    ("mjcf", "bool", "true", True),
+    ("mjcf", "bool", "false", False),
+    ("mjcf", "int", " -1 ", -1),
+    ("mjcf", "double", "inf", math.inf),
+    ("mjcf", "double.2", "-inf\t.5", (-math.inf, 0.5)),
+    ("mjcf", "double.1-3", "1", (1.0,)),
+    ("mjcf", "double.1-3", "1 2 3", (1.0, 2.0, 3.0)),
+    ("mjcf", "doubles", " ", ()),
+    ("mjcf", "ints", "1 2 3 4", (1, 2, 3, 4)),
+    ("mjcf", "words", " a \n\u00a0b ", ("a", "\u00a0b")),
+    ("mjcf", "memory", "10M", "10M"),
+    ("mjcf", "memory", "-1", "-1"),
+    ("mjcf", "axes", "XyZ", "XyZ"),
     ("sdf", "pose", "1 2 3 4 5 6", (1.0, 2.0, 3.0, 4.0, 5.0, 6.0)),
     ("sdf", "pose", "1 2 3 0 0 0 1", (1.0, 2.0, 3.0, 0.0, 0.0, 0.0, 1.0)),
     ("sdf", "time", "1.5", 1.5),
@@ -111,6 +152,15 @@ BAD = {
     "sdf color": ["1 0", "1 0 0 1 1"],
     "sdf pose": ["1 2 3 4 5", "1 2 3 4 5 6 7 8"],
     "sdf time": ["", "x", "1 2 3", "1 x", "inf", "1_0"],
+    "mjcf bool": ["", "1", "0", "True", " true "],
+    "mjcf int": ["", "1.0", "0x1", "1e3", "2147483648", ARABIC_ONE, "1 2"],
+    "mjcf double": ["", "1e400", "1_0", "1,5", "1 2"],
+    "mjcf double.2": ["1", "1 2 3", "1 x"],
+    "mjcf double.1-3": ["", "1 2 3 4"],
+    "mjcf doubles": ["x", "1 1e400"],
+    "mjcf ints": ["1 1.5"],
+    "mjcf memory": ["", "1.5K", "1KB", "-2"],
+    "mjcf axes": ["xy", "xyzx", "xyw", " xyz"],
 }
 
 
