@@ -88,6 +88,7 @@ INVOCATIONS: Mapping[str, Sequence[str]] = {
     "reproduce": ["reproduce fault.json"],
     "schema": ["schema urdf"],
     "stats": ["stats cube.urdf"],
+    "sync": ["sync cube.urdf synced.sdf", "sync cube.urdf synced.sdf --check"],
     "view": ["view cube.urdf --no-open"],
 }
 """The calls of each command, in the order in which they run; later ones find the files that earlier ones made."""

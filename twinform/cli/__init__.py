@@ -18,6 +18,7 @@ COMMANDS: Mapping[str, str] = {
     "check": "Find everything that is wrong with robot models.",
     "fix": "Fix robot models in their files, and run passes on them.",
     "diff": "Say whether two files describe the same robot.",
+    "sync": "Let the files of one robot follow one that is their source.",
     "merge": "Merge the edits of two people in a model file.",
     "format": "Format the text of models, and change nothing else.",
     "advise": "Say which format to keep a robot in, and who takes it.",

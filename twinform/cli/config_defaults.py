@@ -46,6 +46,7 @@ class Project:
     extend_exclude: Sequence[str] = ()
     baseline: str | None = None
     per_file: PerFile | None = None
+    sync: Mapping[str, Sequence[str]] = field(default_factory=dict[str, Sequence[str]])
     env: Sequence[str] = ()
     defaults: Mapping[str, object] = field(default_factory=dict[str, object])
 
@@ -73,6 +74,7 @@ class Project:
             extend_exclude=settings.extend_exclude,
             baseline=settings.baseline,
             per_file=PerFile(path, settings.files) if settings.files else None,
+            sync=settings.sync,
             env=settings.env,
             defaults=settings.defaults,
         )
@@ -129,6 +131,25 @@ class Project:
 
             require_inside(self.path, file, "baseline")
         return file
+
+    @property
+    def synced(self) -> Mapping[str, Sequence[Path]]:
+        """The files of each robot that are kept the same, the source first, by the names of the groups.
+
+        Raises:
+            ConfigError: a file is outside of the folder of the configuration.
+        """
+        if self.path is None or not self.sync:
+            return {}
+        folder = self.path.parent
+        found = {name: [folder / each for each in files] for name, files in self.sync.items()}
+        if not self.trusted:
+            from twinform.cli.config_trust import require_inside  # noqa: PLC0415 - few projects have any
+
+            for name, files in found.items():
+                for file in files:
+                    require_inside(self.path, file, f"sync.{name}")
+        return found
 
     @property
     def names(self) -> "Names":

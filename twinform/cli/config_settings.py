@@ -92,6 +92,10 @@ _fields: dict[str, Any] = {
 _OptionSettings: type[RuleTable] = create_model("_OptionSettings", __base__=RuleTable, **_fields)
 
 
+_SyncedFiles = Annotated[list[str], Field(min_length=2, max_length=_MOST)]
+"""The files of one robot, the source first."""
+
+
 class ProjectSettings(_OptionSettings):
     """The settings of a project; None if a setting is not given. Paths are relative to the folder of the file."""
 
@@ -108,6 +112,7 @@ class ProjectSettings(_OptionSettings):
     extend_exclude: Texts = Field(default_factory=list[str])
     baseline: str | None = None
     files: list[FileSettings] = Field(max_length=_MOST, default_factory=list[FileSettings])
+    sync: Mapping[str, _SyncedFiles] = Field(default_factory=dict[str, _SyncedFiles])
     profiles: Texts = Field(default_factory=list[str], alias="for")
 
     @field_validator("profiles")

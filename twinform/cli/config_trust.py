@@ -56,9 +56,11 @@ HELD: Mapping[str, Hold] = {
     "select": "nothing to hold",
     "shape-error": "nothing to hold",  # meshes are limited, however small it is
     "strict": "nothing to hold",
+    "sync": "inside its folder",  # only the command of that name writes these files
     "urdf-version": "nothing to hold",
 }
-"""What each setting is held to without `--trust-config`; no setting names outputs, programs or addresses."""
+"""What each setting is held to without `--trust-config`; no setting names programs or addresses, or files
+to write but `sync`, for the command that is called so."""
 _ADMINISTRATOR = 0
 _ADVICE = "give --trust-config if this is meant"
 

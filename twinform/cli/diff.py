@@ -18,16 +18,17 @@ def _options(tolerance: float, *, read_carriers: bool) -> ComparisonOptions:
     return ComparisonOptions(tolerance, read_carriers)
 
 
+tolerance_option = click.option(
+    "--tolerance",
+    type=click.FloatRange(min=0),
+    default=TOLERANCE,
+    show_default=True,
+    help="The relative difference that counts as rounding; absolute for positions (m) and angles (rad).",
+)
 comparison_options = group(
     "comparison",
     _options,
-    click.option(
-        "--tolerance",
-        type=click.FloatRange(min=0),
-        default=TOLERANCE,
-        show_default=True,
-        help="The relative difference that counts as rounding; absolute for positions (m) and angles (rad).",
-    ),
+    tolerance_option,
     click.option(
         "--carriers/--no-carriers",
         "read_carriers",

@@ -168,7 +168,7 @@ def inputs(words: Sequence[str]) -> tuple[list[InputSource], dict[str, str]]:
     Raises:
         click.UsageError: there are no files, or arguments of xacro without a xacro file.
     """
-    files, arguments = _split_words(words)
+    files, arguments = split_words(words)
     return _open_files(files, arguments), arguments
 
 
@@ -187,7 +187,7 @@ def model_inputs(
     Raises:
         click.UsageError: as `inputs`, or there is no model.
     """
-    files, arguments = _split_words(words)
+    files, arguments = split_words(words)
     try:
         key = ("files", files, exclusion, getattr(kind, "__name__", ""))
         found = remember(key, lambda: discover(files, exclusion, kind))
@@ -196,7 +196,12 @@ def model_inputs(
         raise click.UsageError(str(error)) from error
 
 
-def _split_words(words: Sequence[str]) -> tuple[list[str], dict[str, str]]:
+def split_words(words: Sequence[str]) -> tuple[list[str], dict[str, str]]:
+    """Split a command line into files and `name:=value` arguments of xacro.
+
+    Raises:
+        click.UsageError: there are no files.
+    """
     matches = [_ARGUMENT.fullmatch(word) for word in words]
     arguments = {match["name"]: match["value"] for match in matches if match}
     files = [word for word, match in zip(words, matches, strict=True) if not match]

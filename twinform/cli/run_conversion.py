@@ -341,13 +341,13 @@ def run_into(source: InputSource, into: Path | None, base: Path | None, options:
     outputs.add("--into", into, updated.data)
     outputs.as_read[into] = updated.source
     outputs.add_beside(into, updated.conversion.side_files)
-    outputs.news.extend(_describe_change(into, change) for change in updated.changes)
+    outputs.news.extend(describe_change(into, change) for change in updated.changes)
     changes = len(updated.changes)
     outputs.news.append(f"{into}: {plural(changes, 'change')}" if changes else f"{into} stays as it is")
     return 0
 
 
-def _describe_change(path: Path, change: "TextChange") -> str:
+def describe_change(path: Path, change: "TextChange") -> str:
     """Say where a file was changed, and what: no edit of a person goes away unmentioned."""
     line, column = change.place
     old, new = _shorten(change.old), _shorten(change.new)

@@ -1,20 +1,27 @@
-"""`convert --into`: a file follows the edits of another one that was made of it."""
+"""`convert --into` and `sync`: a file follows the edits of another one that was made of it."""
 
+from collections.abc import Iterator
 from dataclasses import replace
-from functools import partial
+from functools import cached_property, partial
 from pathlib import Path
+from typing import cast
 
-from twinform.compiler.compare import Difference, compare_files
+from twinform.compiler.compare import Comparison, Difference, compare_files
+from twinform.compiler.compare.comparison import USUAL, ComparisonOptions
 from twinform.compiler.conversion import Conversion
 from twinform.compiler.conversion_error import CompileError
 from twinform.compiler.driver import run_conversion
 from twinform.compiler.in_place import Updated, updated
+from twinform.compiler.input.front_ends import ROOTS
 from twinform.compiler.input.loading import LoadOptions, LoadResult, read
 from twinform.compiler.request import ConversionRequest
+from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, Location
 from twinform.diagnostics.rules import EDIT_CONFLICT
 from twinform.ir import Document, Format
 from twinform.passes import Pipeline
+from twinform.passes.shared.candidates import candidates
+from twinform.request_options import Language
 from twinform.schemas import versions_of
 
 Key = tuple[str, str, str]
@@ -32,24 +39,124 @@ def convert_into(
     Raises:
         CompileError: one of the files cannot be converted, or both sides have changed the same.
     """
-    followed = read(str(into), load_options, name=str(into))
-    request = replace(request, comments=False, sdf_version=_version(request, followed))
-    forth = request if request.to == "urdf" else replace(request, model=None)
-    source = read(str(edited), load_options.read_by(request.sdf_version), name=str(edited))
-    conversion = run_conversion(forth, source, load_options, name=str(edited))
-    if base:
-        before = run_conversion(forth, str(base), load_options, name=str(base))
-    else:
+    return Follower.of(request, edited, into, load_options, base=base).updated()
+
+
+@dataclass(frozen=True)  # no slots: what is made once is kept in the dictionary
+class Follower:
+    """The file `into`, which is to follow the edits of another one; conversions are made when they are asked for."""
+
+    request: ConversionRequest
+    edited: LoadResult
+    into: LoadResult
+    load_options: LoadOptions
+    base: Path | None = None
+
+    @classmethod
+    def of(
+        cls,
+        request: ConversionRequest,
+        edited: Path,
+        into: Path,
+        load_options: LoadOptions,
+        *,
+        base: Path | None = None,
+    ) -> "Follower":
+        """Read both files."""
+        followed = read(str(into), load_options, name=str(into))
+        request = replace(request, comments=False, sdf_version=_version(request, followed))
+        source = read(str(edited), load_options.read_by(request.sdf_version), name=str(edited))
+        return cls(request, source, followed, load_options, base)
+
+    @cached_property
+    def conversion(self) -> Conversion:
+        """What the edited file is converted to.
+
+        Raises:
+            CompileError: it cannot be converted.
+        """
+        return run_conversion(self._forth, self.edited, self.load_options, name=self.edited.path)
+
+    @property
+    def _forth(self) -> ConversionRequest:
+        return replace(self.request, model=None) if self.request.to == "sdf" else self.request
+
+    @cached_property
+    def before(self) -> Conversion:
+        """What the edited file was converted to before the edits.
+
+        Raises:
+            CompileError: one of the files cannot be converted.
+        """
+        if self.base:
+            return run_conversion(self._forth, str(self.base), self.load_options, name=str(self.base))
         # There and back, so that what no conversion keeps is no edit.
-        built = _built(request, source, followed, load_options)
-        before = run_conversion(replace(request, model=None), built, load_options, name=str(into))
-    sink = DiagnosticSink(str(into), load_options.strict)
-    made = updated(followed, before.document, conversion, sink, same=base is None)
-    # A merge pairs parts by names, content and likeness, and a wrong pair would write a wrong robot
-    # silently. So the file as it would be is compared with the edited one. It costs two
-    # comparisons.
-    _require_the_robot(made, before, followed, load_options)
-    return made
+        forth = replace(self.request, model=None)
+        return run_conversion(forth, self._built(), self.load_options, name=self.into.path)
+
+    def _built(self) -> bytes:
+        """What the file is converted to, in the format and the version of the edited one."""
+        document, to = _document(self.edited), _language(self.edited)
+        back = replace(self.request, to=to, sdf_version=None, urdf_version=None, passes=Pipeline())
+        if to == "sdf":
+            back = replace(back, sdf_version=document.version, model=None)
+        # What only MJCF says has no words in the other formats but carriers, and whoever edits a URDF
+        # has not taken the actuators out of the MJCF by writing none.
+        back = replace(back, carriers=back.carriers and self.request.to != "mjcf")
+        return run_conversion(back, self.into, self.load_options, name=self.into.path).text.encode()
+
+    def updated(self) -> Updated:
+        """Change in the file only what the edits change.
+
+        Raises:
+            CompileError: one of the files cannot be converted, or both sides have changed the same.
+        """
+        sink = DiagnosticSink(self.into.path, self.load_options.strict)
+        made = updated(self.into, self.before.document, self.conversion, sink, same=self.base is None)
+        # A merge pairs parts by names, content and likeness, and a wrong pair would write a wrong robot
+        # silently. So the file as it would be is compared with the edited one. It costs two
+        # comparisons.
+        _require_the_robot(made, self.before, self.into, self.load_options)
+        return made
+
+    def differences(self, options: ComparisonOptions = USUAL) -> Comparison:
+        """Compare the file with what the edited one is converted to, in the terms that both formats have words for.
+
+        Notes are left out, and so is what no edit of the other file could change.
+
+        Raises:
+            CompileError: one of the files cannot be converted or compared.
+        """
+        a = _located(self.conversion, self.edited, self.load_options)
+        names = (self.edited.path, self.into.path)
+        model = (self.request.model or self.robot_name) if self.has_several else None
+        compared = partial(compare_files, load_options=self.load_options, options=options, model=model)
+        found = compared(a, self.into, names=names)
+        wrong = found.counted and [*self._reachable(found.counted, compared)]
+        return replace(found, items=tuple(wrong))
+
+    def _reachable(self, found: tuple[Difference, ...], compared: "partial[Comparison]") -> Iterator[Difference]:
+        """Leave out the differences that the file would have too if nothing had been edited."""
+        own = _keys(compared(self.before.text.encode(), self.into))
+        edits = _keys(compared(self.conversion.text.encode(), self.before.text.encode())) if own else own
+        return (each for each in found if _key(each) not in own or _key(each) in edits)
+
+    @property
+    def has_several(self) -> bool:
+        """Whether the file has models beside the one that follows."""
+        return sum(1 for _ in candidates(_document(self.into))) > 1
+
+    @property
+    def robot_name(self) -> str | None:
+        """The name of the robot that is followed, if there is one at the root of its file."""
+        return next((each.name for each in _document(self.edited).models), None)
+
+
+def _located(conversion: Conversion, edited: LoadResult, load_options: LoadOptions) -> LoadResult:
+    """Return what was converted with the places of its parts in the edited file, as far as its format keeps them."""
+    if conversion.document.format is Format.MJCF:  # its elements are untyped, and only its text is read as a robot
+        return read(conversion.text.encode(), load_options, name=edited.path)
+    return LoadResult(edited.path, conversion.document, (), origins=edited.origins)
 
 
 def _version(request: ConversionRequest, into: LoadResult) -> str | None:
@@ -71,13 +178,15 @@ def _document(loaded: LoadResult) -> Document:
     return loaded.document
 
 
-def _built(request: ConversionRequest, edited: LoadResult, into: LoadResult, load_options: LoadOptions) -> bytes:
-    """What a file is converted to, in the format and the version of the edited one."""
-    document = _document(edited)
-    back = replace(request, to=document.format.value, sdf_version=None, urdf_version=None, passes=Pipeline())
-    if document.format is Format.SDF:
-        back = replace(back, sdf_version=document.version, model=None)
-    return run_conversion(back, into, load_options, name=into.path).text.encode()
+def _language(loaded: LoadResult) -> Language:
+    """Return the format of a file, which for MJCF is not that of its document.
+
+    Raises:
+        CompileError: it has none.
+    """
+    if loaded.tree is None:
+        raise loaded.error()
+    return cast("Language", ROOTS[str(loaded.tree.tag)][0])
 
 
 def _require_the_robot(made: Updated, before: Conversion, into: LoadResult, load_options: LoadOptions) -> None:
@@ -117,3 +226,7 @@ def _require_the_robot(made: Updated, before: Conversion, into: LoadResult, load
 
 def _key(found: Difference) -> Key:
     return found.group, found.name, found.aspect
+
+
+def _keys(found: Comparison) -> frozenset[Key]:
+    return frozenset(map(_key, found.counted))

@@ -35,7 +35,7 @@ def json(comparison: Comparison) -> str:
         "b": comparison.b,
         "same": comparison.same,
         "tolerance": comparison.tolerance,
-        "items": [_item_fields(item) for item in comparison.items],
+        "items": [item_fields(item) for item in comparison.items],
     }
     from json import dumps  # noqa: PLC0415 - a text needs none of it
 
@@ -102,7 +102,8 @@ def amounts_of(item: Difference) -> Iterator[str]:
         yield f"{100 * item.relative:.3g} %"
 
 
-def _item_fields(item: Difference) -> dict[str, object]:
+def item_fields(item: Difference) -> dict[str, object]:
+    """Return a difference as fields of JSON."""
     return {
         "severity": str(item.severity),
         "reader": item.reader,
