@@ -2,11 +2,13 @@
 
 First the tree is made canonical: includes, frames, replicates and attached models are put in their place, the values of
 default classes are written into each element, angles are radians and orientations are `quat`. Then its bodies become
-links, joints and frames.
+links, joints and frames, and carriers add what MJCF cannot say.
 """
 
 from twinform.compiler.input.load_options import LoadOptions
+from twinform.compiler.input.mjcf.carried_texts import take_texts
 from twinform.compiler.input.mjcf.lower import lower
+from twinform.compiler.input.mjcf.merge_texts import merge_texts
 from twinform.compiler.input.mjcf.normalize import normalize
 from twinform.ir import Document
 from twinform.schemas import Context, XmlElement
@@ -15,5 +17,7 @@ __all__ = ["lower_mjcf"]
 
 
 def lower_mjcf(root: XmlElement, context: Context, load_options: LoadOptions) -> Document:
-    """Build the document of a `<mujoco>` in the terms of the default version of SDF; the tree is left as it is."""
-    return lower(normalize(root, context, load_options), context)
+    """Build the document of a `<mujoco>` in the terms of SDF; the tree is left as it is."""
+    canonical = normalize(root, context, load_options)
+    texts = take_texts(canonical, context)
+    return merge_texts(lower(canonical, context), texts, context.sink)

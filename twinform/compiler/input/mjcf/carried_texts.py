@@ -1,0 +1,76 @@
+"""Reads the carriers of a file of MJCF: the texts of its `custom` section whose names begin with `twinform:`."""
+
+from collections.abc import Iterable
+from typing import NamedTuple
+
+from twinform.diagnostics import DiagnosticSink, Fate, Source
+from twinform.diagnostics.rules import STALE_CARRIER
+from twinform.ir import Node, map_references
+from twinform.ir.frames import MODEL, WORLD
+from twinform.passes.carriers.absorb import CarrierError
+from twinform.passes.carriers.mjcf_texts import KINDS, parse_text_name, read_node
+from twinform.schemas import Context, XmlElement
+
+
+class CarriedText(NamedTuple):
+    """A carrier: the kind of its node, the scoped name, and the partial node, which knows where the text stands."""
+
+    kind: str
+    name: str
+    node: Node
+
+
+def take_texts(root: XmlElement, context: Context) -> tuple[CarriedText, ...]:
+    """Take the carriers out of a tree, and report those that do not hold what their names promise."""
+    found: list[CarriedText] = []
+    for custom in [*root.iter("custom")]:
+        for text in [*custom.iterchildren("text")]:
+            if parse_text_name(text.get("name") or "") is None:
+                continue
+            custom.remove(text)
+            read = _read(text, context)
+            if read is not None:
+                found.append(read)
+        parent = custom.getparent()
+        if parent is not None and not len(custom):
+            parent.remove(custom)
+    return tuple(found)
+
+
+def _read(text: XmlElement, context: Context) -> CarriedText | None:
+    written = text.get("name") or ""
+    name = parse_text_name(written)
+    source = Source(context.file, text.sourceline or 0, None, f"mujoco/custom/text[@name='{written}']", None)
+    if name is None or name.kind not in KINDS:
+        report_stale(context.sink, f"{written!r} is no carrier of a kind that there is", source)
+        return None
+    try:
+        node = read_node(text.get("data") or "", name.kind, source)
+    except (CarrierError, ValueError) as error:
+        report_stale(context.sink, f"{written!r} cannot be read: {error}", source)
+        return None
+    return _attached(CarriedText(name.kind, name.name, node), name.attached)
+
+
+def _attached(text: CarriedText, prefix: str) -> CarriedText:
+    """The carrier with the prefix that `attach` has put before the names of all that it is about."""
+    if not prefix:
+        return text
+    node = map_references(text.node, lambda _, name: name if name in {MODEL, WORLD} else prefix + name)
+    own = getattr(node, "name", None)
+    node = node.copy(name=prefix + own) if own and text.kind != "model" else node
+    return text._replace(name=prefix + text.name, node=node)
+
+
+def report_stale(sink: DiagnosticSink, message: str, source: Source | None) -> None:
+    """Report a carrier that fits nothing in the file."""
+    where = source.location if source else None
+    if where is None:
+        return
+    sink.account(Fate.DROPPED, STALE_CARRIER, message, where, 2)
+    sink.report(STALE_CARRIER, message, where, found=message)
+
+
+def nodes_of(texts: Iterable[CarriedText], kind: str) -> list[Node]:
+    """The partial nodes of a kind, by their scoped names."""
+    return [each.node for each in texts if each.kind == kind]

@@ -1,0 +1,194 @@
+"""Merges the carriers of a file of MJCF into what it was lowered to, which makes the document that it was written of.
+
+What stands in the file always counts. A carrier fills what is open, and gives names, frames and notations back.
+"""
+
+from collections.abc import Iterable
+from typing import TypeVar
+
+from twinform.compiler.input.mjcf.carried_texts import CarriedText, nodes_of, report_stale
+from twinform.compiler.input.mjcf.joined_joints import join_joints
+from twinform.compiler.input.mjcf.one_model import one_model
+from twinform.diagnostics import DiagnosticSink
+from twinform.ir import Document, Format, Frame, Joint, Link, Model, Node, World
+from twinform.ir.frames import WORLD
+from twinform.ir.scopes import SCOPE
+from twinform.passes.carriers.annotations import (
+    FROM,
+    came_from,
+    find_annotation,
+    is_synthesized,
+    with_annotation,
+    without_annotation,
+    without_synthesized,
+)
+from twinform.passes.carriers.mjcf_texts import DOCUMENT, PREFIXES
+from twinform.passes.carriers.partial_nodes import Merging, written_name
+from twinform.passes.legalise.changed_names import NAME, Names, renamed
+from twinform.passes.legalise.to_sdf.restore_frames import RestoreFrames
+from twinform.passes.legalise.to_sdf.restore_nested import NameScopes, RestoreNested
+from twinform.passes.sdf_versions import change_version
+from twinform.passes.shared.poses import NESTED
+from twinform.schemas import DEFAULT_SDF_VERSION, versions_of
+
+AnyPart = TypeVar("AnyPart", Link, Joint, Frame)
+_MADE_NAME = "made-name"
+
+
+def merge_texts(document: Document, texts: tuple[CarriedText, ...], sink: DiagnosticSink) -> Document:
+    """The document with what carriers hold; in the version of SDF that its source had, if that was SDF."""
+    if not texts:
+        return document
+    return _Merged(document, texts, sink).document()
+
+
+class _Merged:
+    """Merges the carriers of one file."""
+
+    def __init__(self, lowered: Document, texts: tuple[CarriedText, ...], sink: DiagnosticSink) -> None:
+        self.lowered = lowered
+        self.texts = texts
+        self.sink = sink
+        self.merging = Merging()
+        self.links: list[Link] = [each for each in nodes_of(texts, "link") if isinstance(each, Link)]
+        self.joints: list[Joint] = [each for each in nodes_of(texts, "joint") if isinstance(each, Joint)]
+        self.frames: list[Frame] = [each for each in nodes_of(texts, "frame") if isinstance(each, Frame)]
+        self.world = next((each for each in nodes_of(texts, "world") if isinstance(each, World)), None)
+        self.around = next((each for each in nodes_of(texts, DOCUMENT) if isinstance(each, Document)), None)
+
+    def document(self) -> Document:
+        """The document as it was before it was written, with all edits since."""
+        model = self._named(one_model(self.lowered))
+        model = join_joints(model, self.joints)
+        model = self._merged(model)
+        for stale in self.merging.stale:
+            what = f"{type(stale).__name__.lower()} {getattr(stale, 'name', None) or ''}".strip()
+            report_stale(self.sink, f"what a carrier holds of the {what} belongs to nothing in the file", stale.source)
+        return self._in_version(self._as_document(self._restored(model)))
+
+    def _named(self, model: Model) -> Model:
+        """The model whose parts have the names that they had before they were written."""
+        scopes = {each.name for each in self.frames if find_annotation(each, NESTED) is not None}
+        names: Names = {}
+        for part, nodes, partials in (
+            ("link", model.links, self.links),
+            ("joint", model.joints, self.joints),
+            ("frame", model.frames, self.frames),
+        ):
+            known = {written_name(each): each.name for each in partials}
+            for node in nodes:
+                old = _old_name(node, known, scopes)
+                if old != node.name:
+                    names[part, node.name] = old
+        fixed = {each.child: each.name for each in self.joints if each.type == "fixed"}
+        links = {node.name: names.get(("link", node.name), node.name) for node in model.links}
+        for joint in model.joints:
+            old = fixed.get(links.get(joint.child or "", joint.child))
+            if joint.type == "fixed" and old is not None:
+                names["joint", joint.name] = old
+        plain = {
+            field: tuple(without_annotation(each, NAME, _MADE_NAME) for each in getattr(model, field))
+            for field in ("links", "joints", "frames")
+        }
+        return renamed(model.copy(**plain), names, Format.SDF)
+
+    def _merged(self, model: Model) -> Model:
+        partial = next((each for each in nodes_of(self.texts, "model") if isinstance(each, Model)), None)
+        made = frozenset(each.name for each in model.joints if is_synthesized(each))
+        joints = tuple(without_synthesized(each) if each.name in made else each for each in model.joints)
+        links = self.merging.merge_all(model.links, tuple(without_annotation(each, "written") for each in self.links))
+        ends = {WORLD, *(each.name for each in links), *(each.name for each in (*model.frames, *self.frames))}
+        joints = self.merging.merge_all(joints, tuple(self._typed(joints, ends)))
+        frames = self.merging.merge_all(model.frames, tuple(self.frames))
+        model = model.copy(links=links, joints=joints, frames=frames)
+        if partial is None:
+            return self._let_go(model, made)
+        is_static = bool(partial.static) and self._is_held(model, made)
+        if partial.static and not is_static:
+            self._stale(f"model {model.name!r} is not static any more: something in it moves", partial)
+            partial = partial.copy(static=None)
+        return self._let_go(self.merging.merge(model, partial), made, is_static=is_static)
+
+    def _typed(self, joints: Iterable[Joint], ends: set[str]) -> Iterable[Joint]:
+        """The partial joints whose links are there."""
+        known = {each.name for each in joints}
+        for each in self.joints:
+            if each.name in known or (each.parent in ends and each.child in ends):
+                yield without_annotation(each, "written")
+            else:
+                self._stale(f"there is nothing any more that joint {each.name!r} holds", each)
+
+    def _is_held(self, model: Model, made: frozenset[str]) -> bool:
+        """Whether nothing in a model moves."""
+        held = {each.child for each in model.joints if each.type == "fixed"}
+        return all(each.name in held for each in model.links)
+
+    def _let_go(self, model: Model, made: frozenset[str], *, is_static: bool = False) -> Model:
+        """The model without joints that only say that it is fixed to the world, where something else says so."""
+        carried = {each.name for each in self.joints if not is_synthesized(each)}
+        is_robot = came_from(model, Format.URDF)
+        kept = tuple(
+            each
+            for each in model.joints
+            if not (
+                each.type == "fixed"
+                and each.parent == WORLD
+                and (
+                    (each.name in made and each.name not in carried and is_static)
+                    or (is_robot and is_synthesized(each))
+                )
+            )
+        )
+        return model.copy(joints=kept)
+
+    def _restored(self, model: Model) -> Model:
+        """The model whose poses are written in their frames and notations, with models in it."""
+        if came_from(model, Format.URDF):
+            return model
+        version = versions_of("sdf")[-1]
+        model = with_annotation(model, FROM, attributes={"format": Format.SDF.value, "version": version})
+        steps = (NameScopes.unchecked(), RestoreFrames.unchecked(), RestoreNested.unchecked())
+        for step in steps:
+            model = step.run_model(model, self.sink)
+        return without_annotation(model, FROM)
+
+    def _as_document(self, model: Model) -> Document:
+        newest = versions_of("sdf")[-1]
+        document = Document.unchecked(format=Format.SDF, version=newest, source=self.lowered.source)
+        if self.world is None:
+            document = document.copy(models=(model,))
+        else:
+            document = document.copy(worlds=(self._as_world(model, self.world),))
+        if self.around is not None:
+            document = self.merging.merge(document, without_annotation(self.around, FROM, PREFIXES))
+        return document
+
+    def _as_world(self, model: Model, partial: World) -> World:
+        lowered = self.lowered.worlds[0] if self.lowered.worlds else World.unchecked(name=partial.name)
+        world = lowered.copy(models=model.models, joints=model.joints, frames=model.frames, name=partial.name)
+        return self.merging.merge(world, partial)
+
+    def _in_version(self, document: Document) -> Document:
+        """The document in the version of SDF that its source had."""
+        newest = versions_of("sdf")[-1]
+        found = find_annotation(self.around, FROM) if self.around else None
+        is_robot = any(came_from(each, Format.URDF) for each in document.models)
+        version = DEFAULT_SDF_VERSION if is_robot or found is None else found.get("version")
+        if version == newest or version not in versions_of("sdf"):
+            return document
+        for step in change_version(newest, version):
+            document = step.run(document, self.sink)
+        return document
+
+    def _stale(self, message: str, node: Node) -> None:
+        report_stale(self.sink, message, node.source)
+
+
+def _old_name(node: Node, known: dict[str | None, str], scopes: set[str]) -> str:
+    """The name that a part had: the one that a carrier gives, or the one in the file if that is in a known scope."""
+    own: str = getattr(node, "name", "")
+    found = find_annotation(node, NAME)
+    written = found.text if found is not None and found.text else own
+    if written in known:
+        return known[written]
+    return written if written.rpartition(SCOPE)[0] in scopes else own

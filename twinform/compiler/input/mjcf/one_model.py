@@ -1,0 +1,66 @@
+"""The trees of a file of MJCF as one model: what was one model before it was written, and has several roots."""
+
+from twinform.ir import Document, Frame, Joint, Link, Model, Opaque, Pose, World, rewrite
+from twinform.ir.frames import WORLD
+from twinform.ir.transform import Transform
+from twinform.passes.carriers.annotations import annotate_synthesized
+from twinform.passes.shared.nodes import reserve_name
+
+
+def one_model(document: Document) -> Model:
+    """The links, joints and frames of all models of a document in one, whose frame is that of the world.
+
+    A static tree hangs from the world by a fixed joint that is annotated as made. All orientations are roll, pitch and
+    yaw; a quaternion comes back where a carrier says so.
+    """
+    world = document.worlds[0] if document.worlds else None
+    models = world.models if world else document.models
+    taken = {node.name for each in models for node in (*each.links, *each.joints, *each.frames)}
+    links: list[Link] = []
+    joints: list[Joint] = [*(world.joints if world else ())]
+    frames: list[Frame] = [*(world.frames if world else ())]
+    opaque: list[Opaque] = [*document.opaque, *(world.opaque if world and not _is_written_world(world) else ())]
+    for each in models:
+        children = {joint.child for joint in each.joints}
+        roots = [link for link in each.links if link.name not in children]
+        links += [_placed(link, each.pose) if link in roots else link for link in each.links]
+        joints += [_held(link, taken) for link in roots if each.static]
+        joints += each.joints
+        frames += each.frames
+        opaque += each.opaque
+    name = models[0].name if len(models) == 1 else world.name if world else "model"
+    source = world.source if world else models[0].source if models else document.source
+    model = Model.unchecked(
+        name=name,
+        links=tuple(links),
+        joints=tuple(joints),
+        frames=tuple(frames),
+        opaque=tuple(opaque),
+        source=source,
+    )
+    return rewrite(model, Pose, _in_rpy)
+
+
+def _is_written_world(world: World) -> bool:
+    """Whether a world has settings of its own, which stay with it."""
+    return bool(world.opaque)
+
+
+def _placed(link: Link, at: Pose | None) -> Link:
+    """A root link, whose model has a pose, in the world."""
+    if at is None:
+        return link
+    return link.copy(pose=Transform.from_pose(at).compose(Transform.from_pose(link.pose)).to_pose())
+
+
+def _held(link: Link, taken: set[str]) -> Joint:
+    name = reserve_name(f"{link.name}_fixed_joint", taken)
+    joint = Joint.unchecked(name=name, type="fixed", parent=WORLD, child=link.name, source=link.source)
+    return annotate_synthesized(joint)
+
+
+def _in_rpy(pose: Pose) -> Pose:
+    if pose.quat_xyzw is None:
+        return pose
+    plain = Transform.from_pose(pose).to_pose(pose.relative_to)
+    return plain.copy(source=pose.source, opaque=pose.opaque)
