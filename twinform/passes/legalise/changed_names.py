@@ -196,6 +196,12 @@ def _old_name(found: Element) -> str:
     return found.get("was") or found.text or ""
 
 
+def source_name(node: Link | Joint | Frame) -> str:
+    """The name that a part had in the source, where SDF could not have it: the annotated one, or else its own."""
+    found = find_annotation(node, NAME)
+    return _old_name(found) if found and found.get("instead_of") == node.name else node.name
+
+
 def with_old_name(node: AnyNode, name: str) -> AnyNode:
     """The node with an annotation of its name, before it is renamed; blanks need an attribute."""
     old: Any = getattr(node, "name", None)

@@ -13,6 +13,7 @@ from twinform.ir.frames import WORLD
 from twinform.ir.kinematic_tree import JointBetween
 from twinform.passes.carriers.annotations import is_synthesized
 from twinform.passes.carriers.joint_chains import part_of
+from twinform.passes.legalise.changed_names import source_name
 from twinform.passes.legalise.to_mjcf.elements import make_element, placement
 from twinform.passes.legalise.to_mjcf.geoms import geom_elements
 from twinform.passes.legalise.to_mjcf.inertials import inertial_elements, report_weightless, weight_of
@@ -107,7 +108,7 @@ class _BodyTree:
 
     def _body(self, name: str, hold: Hold, above: dict[str, Body]) -> Body:
         link = self.tree.links[name]
-        written = self.context.name("body", name, link.location) or name
+        written = self.context.name("body", scope_of(name) + source_name(link), link.location) or name
         self.context.written_bodies[name] = written
         moves = name not in self.context.static_links and (
             not hold.joints

@@ -16,6 +16,7 @@ from twinform.ir.kinematic_tree import JointBetween
 from twinform.ir.node import Vector3
 from twinform.ir.transform import Transform, rounded
 from twinform.passes.carriers.joint_chains import CHAINS, TWO_AXES, metres_per_radian
+from twinform.passes.legalise.changed_names import source_name
 from twinform.passes.legalise.to_mjcf.elements import Value, make_element, position
 from twinform.passes.legalise.to_mjcf.kept_mjcf import with_kept
 from twinform.passes.legalise.to_mjcf.writing_context import Body, MjcfContext, scope_of
@@ -62,7 +63,7 @@ def _elements(context: MjcfContext, body: Body, between: JointBetween) -> Iterat
     if joint.type in TWO_AXES:
         yield from _two_axes(context, body, between, at)
         return
-    name = _name(context, between, between.name)
+    name = _name(context, between, scope_of(between.name) + source_name(joint))
     context.written_joints[between.name] = (name,)
     element = _element(context, body, between, at, joint.axis, name)
     yield with_kept(element, joint)

@@ -1,0 +1,163 @@
+"""A model as MuJoCo compiles it: its joints, bodies, and the equations of motion at given positions.
+
+The URDF reader of MuJoCo may merge links, leave visuals out and change inertias: all of that is off here.
+"""
+
+import contextlib
+import importlib
+import tempfile
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any, NamedTuple
+
+import numpy as np
+from lxml import etree
+
+Array = Any
+"""An array of numpy."""
+FREE, BALL, SLIDE, HINGE = range(4)
+"""The types of joints, with MuJoCo's numbers."""
+
+
+class UnreadableError(Exception):
+    """MuJoCo refuses a model; the message says why."""
+
+
+class JointFacts(NamedTuple):
+    """What a joint of one freedom may do: its type, range, force, damping, friction and spring.
+
+    A range or force that is not limited is empty.
+    """
+
+    kind: int
+    range: tuple[float, ...]
+    force: tuple[float, ...]
+    damping: float
+    friction: float
+    stiffness: float
+    spring: float
+
+
+class GeomFacts(NamedTuple):
+    """The body of a geom, its type, whether anything can touch it, and its sizes."""
+
+    body: str
+    kind: int
+    touches: bool
+    size: tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class Motion:
+    """The state of a model: mass matrix, bias forces, and the poses of bodies, sites and geoms as 4x4 matrices."""
+
+    mass: Array
+    bias: Array
+    bodies: Mapping[str, Array]
+    geoms: Sequence[Array]
+
+
+@dataclass
+class Compiled:
+    """A compiled model."""
+
+    mujoco: Any
+    model: Any
+    data: Any = field(init=False)
+
+    def __post_init__(self) -> None:
+        # Contacts and limits are no part of what is compared, and of a hundred robots in one place there are too many.
+        self.model.opt.disableflags |= int(self.mujoco.mjtDisableBit.mjDSBL_CONSTRAINT)
+        self.model.opt.disableflags |= int(self.mujoco.mjtDisableBit.mjDSBL_CONTACT)
+        self.data = self.mujoco.MjData(self.model)
+
+    @cached_property
+    def joints(self) -> dict[str, int]:
+        """The numbers of the joints by name; a free joint without one has that of its body."""
+        found = dict[str, int]()
+        for number in range(self.model.njnt):
+            body = self.model.body(int(self.model.jnt_bodyid[number])).name
+            found[self.model.joint(number).name or body] = number
+        return found
+
+    def facts(self, number: int) -> JointFacts:
+        """What a joint may do."""
+        model = self.model
+        dof = int(model.jnt_dofadr[number])
+        limited = bool(model.jnt_limited[number])
+        strong = bool(model.jnt_actfrclimited[number])
+        return JointFacts(
+            int(model.jnt_type[number]),
+            tuple(map(float, model.jnt_range[number])) if limited else (),
+            tuple(map(float, model.jnt_actfrcrange[number])) if strong else (),
+            float(model.dof_damping[dof]),
+            float(model.dof_frictionloss[dof]),
+            float(model.jnt_stiffness[number]),
+            float(model.qpos_spring[int(model.jnt_qposadr[number])]),
+        )
+
+    def geom(self, number: int) -> GeomFacts:
+        """What a geom is."""
+        model = self.model
+        body = str(model.body(int(model.geom_bodyid[number])).name)
+        touches = bool(model.geom_contype[number] or model.geom_conaffinity[number])
+        return GeomFacts(body, int(model.geom_type[number]), touches, tuple(map(float, model.geom_size[number])))
+
+    def at(self, positions: Array, velocities: Array) -> Motion:
+        """The motion at positions and velocities, in the order of this model."""
+        mujoco, model, data = self.mujoco, self.model, self.data
+        data.qpos[:], data.qvel[:] = positions, velocities
+        mujoco.mj_forward(model, data)
+        mass = np.zeros((model.nv, model.nv))
+        mujoco.mj_fullM(model, data, mass)
+        poses = {model.body(i).name: _pose(data.xpos[i], data.xmat[i]) for i in range(1, model.nbody)}
+        sites = {model.site(i).name: _pose(data.site_xpos[i], data.site_xmat[i]) for i in range(model.nsite)}
+        geoms = [_pose(data.geom_xpos[i], data.geom_xmat[i]) for i in range(model.ngeom)]
+        return Motion(mass, data.qfrc_bias.copy(), sites | poses, geoms)
+
+
+def _pose(place: Array, rotation: Array) -> Array:
+    made = np.eye(4)
+    made[:3, :3], made[:3, 3] = np.reshape(rotation, (3, 3)), place
+    return made
+
+
+def compile_urdf(text: bytes, folder: str | None = None, *, absent_is_nothing: bool) -> Compiled:
+    """Compile a URDF with all of its links and visuals.
+
+    A link without inertial has no mass with `absent_is_nothing`, and else what MuJoCo makes of its collisions.
+
+    Raises:
+        UnreadableError: MuJoCo refuses it.
+    """
+    settings = dict.fromkeys(("fusestatic", "discardvisual", "balanceinertia", "strippath"), "false")
+    if absent_is_nothing:
+        settings["inertiafromgeom"] = "false"
+    parser = etree.XMLParser(resolve_entities=False, no_network=True, remove_comments=True, remove_pis=True)
+    try:
+        robot = etree.fromstring(text, parser)
+    except etree.XMLSyntaxError as error:
+        raise UnreadableError(f"it is not XML: {error}") from error
+    for own in robot.findall("mujoco"):
+        robot.remove(own)
+    etree.SubElement(etree.SubElement(robot, "mujoco"), "compiler", settings)
+    return compile_mjcf(etree.tostring(robot, encoding="unicode"), folder)
+
+
+def compile_mjcf(text: str, folder: str | None = None) -> Compiled:
+    """Compile a model; relative paths of files lead from `folder`.
+
+    Raises:
+        UnreadableError: MuJoCo refuses it.
+    """
+    mujoco: Any = importlib.import_module("mujoco")
+    # it writes its warnings to a file in the working directory
+    with tempfile.TemporaryDirectory() as made, contextlib.chdir(made):
+        try:
+            spec = mujoco.MjSpec.from_string(text)
+            if folder is not None:
+                spec.modelfiledir = folder
+            return Compiled(mujoco, spec.compile())
+        except (ValueError, mujoco.FatalError) as error:
+            raise UnreadableError(" ".join(str(error).split())) from error
