@@ -1,0 +1,72 @@
+"""Camera sensors as cameras of MJCF, with their field of view and resolution.
+
+A camera of SDF looks along x with z up, and one of MJCF along -z with y up. SDF states the horizontal field of view,
+and MJCF the vertical one.
+"""
+
+import math
+
+from twinform.ir import Element, Pose, Sensor
+from twinform.ir.transform import Transform
+from twinform.passes.legalise.to_mjcf.elements import Value, make_element, placement
+from twinform.passes.legalise.to_mjcf.said_parts import child_number, child_text, child_vector
+from twinform.passes.legalise.to_mjcf.writing_context import Body, MjcfContext
+
+OPTICAL = Transform.from_pose(Pose.unchecked(quat_xyzw=(0.5, -0.5, -0.5, 0.5)))
+"""The axes of a camera of MJCF in those of SDF."""
+FIELD_OF_VIEW, WIDTH, HEIGHT = 1.047, 320, 240
+"""What a camera of SDF has where nothing is written: rad and pixels."""
+_OUTPUTS = {
+    "depth": "depth", "depth_camera": "depth", "rgbd": "rgb depth", "rgbd_camera": "rgb depth",
+    "segmentation": "segmentation", "segmentation_camera": "segmentation",
+}  # fmt: skip
+SAID = frozenset({"camera/horizontal_fov", "camera/image/width", "camera/image/height"})
+"""What MJCF says of a camera, but for its pose."""
+
+
+def camera_element(
+    context: MjcfContext, sensor: Sensor, camera: Element, body: Body, place: Transform
+) -> Element | None:
+    """The camera of a `<camera>` in a sensor at a place in its body; None where no plane image is as wide."""
+    name = context.name("camera", body.scope + _name(sensor, camera), sensor.location)
+    view = child_number(camera, "horizontal_fov", default=FIELD_OF_VIEW)
+    if not 0 < view < math.pi:
+        return None
+    width, height = (
+        int(child_number(camera, "image", key, default=usual)) for key, usual in (("width", WIDTH), ("height", HEIGHT))
+    )
+    if width <= 0 or height <= 0:
+        return None
+    attributes: list[tuple[str, Value]] = [
+        ("name", name),
+        *placement(place.compose(_inner(context, camera, body)).compose(OPTICAL)),
+        ("fovy", vertical_view(view, width, height)),
+        ("resolution", (width, height)),
+        ("output", _OUTPUTS.get(sensor.type or "")),
+    ]
+    return make_element("camera", attributes, source=sensor.source)
+
+
+def vertical_view(horizontal: float, width: int, height: int) -> float:
+    """The vertical field of view in degrees, of a horizontal one in rad and a picture of square pixels."""
+    return math.degrees(2 * math.atan(math.tan(horizontal / 2) * height / width))
+
+
+def _name(sensor: Sensor, camera: Element) -> str:
+    """The name of the sensor, and with it that of the camera where a sensor has several."""
+    own = camera.get("name") if sensor.type == "multicamera" else None
+    return f"{sensor.name}_{own}" if own else sensor.name or "camera"
+
+
+def _inner(context: MjcfContext, camera: Element, body: Body) -> Transform:
+    """The pose of a camera in its sensor."""
+    del context, body
+    pose = camera.find("pose")
+    numbers = child_vector(pose)
+    if pose is None or numbers is None or child_text(pose) is None:
+        return Transform()
+    xyz = (numbers[0], numbers[1], numbers[2])
+    if pose.get("rotation_format") == "quat_xyzw":
+        return Transform.from_pose(Pose.unchecked(xyz=xyz, quat_xyzw=(numbers[3], numbers[4], numbers[5], numbers[6])))
+    degrees = pose.get("degrees") in {"true", "1"}
+    return Transform.from_pose(Pose.unchecked(xyz=xyz, rpy=(numbers[3], numbers[4], numbers[5]), degrees=degrees))

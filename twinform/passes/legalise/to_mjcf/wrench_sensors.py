@@ -1,0 +1,75 @@
+"""Force-torque sensors on joints as a force and a torque on a site of MJCF, in the body that the joint moves.
+
+MuJoCo reports what the parent does to the child, in the axes of the site and about its origin. SDF has these axes in
+`frame`: those of the sensor, the child or the parent. With `parent_to_child` SDF has the same sign, and with
+`child_to_parent`, its default, the opposite one (gz-sensors, ForceTorqueSensor::Update).
+"""
+
+from twinform.diagnostics import Fate, rules
+from twinform.ir import Sensor
+from twinform.ir.defaults import FORCE_TORQUE
+from twinform.ir.kinematic_tree import JointBetween
+from twinform.ir.transform import Transform
+from twinform.passes.legalise.to_mjcf.said_parts import child_text, untyped, without_elements
+from twinform.passes.legalise.to_mjcf.sensor_parts import SensorParts, common_noise, reading
+from twinform.passes.legalise.to_mjcf.sites import sensor_site
+from twinform.passes.legalise.to_mjcf.writing_context import Body, MjcfContext
+
+
+def wrench_parts(context: MjcfContext, sensor: Sensor, site: str, joint: JointBetween, body: Body) -> SensorParts:
+    """The parts of a sensor on the joint that holds a body."""
+    where = sensor.location
+    readings = [
+        reading(kind, context.name("sensor", f"{site}_{kind}", where), noise, site=site)
+        for kind in ("force", "torque")
+        for noise in (common_noise(sensor, "force_torque", kind),)
+    ]
+    _report_differences(context, sensor, joint)
+    return SensorParts([sensor_site(site, _place(context, sensor, joint, body))], readings, _left(sensor))
+
+
+def _place(context: MjcfContext, sensor: Sensor, joint: JointBetween, body: Body) -> Transform:
+    """The origin of the sensor, with the axes that it reports in, in the frame of the body."""
+    joint_place = context.place(joint.name, body.name, kind="joint")
+    if sensor.pose is not None and sensor.pose.relative_to:
+        origin = context.resolve(sensor.pose, body)
+    else:
+        origin = joint_place.compose(Transform.from_pose(sensor.pose))
+    match setting(sensor, "frame"):
+        case "child":
+            axes = Transform()
+        case "parent":
+            axes = context.place(joint.parent, body.name) if joint.parent in context.tree.links else joint_place
+        case _:
+            return origin
+    return Transform(origin.translation, axes.rotation)
+
+
+def setting(sensor: Sensor, name: str) -> str:
+    """The value of `frame` or `measure_direction`, or its default."""
+    return child_text(untyped(sensor, "force_torque"), name) or FORCE_TORQUE[name]
+
+
+def _report_differences(context: MjcfContext, sensor: Sensor, joint: JointBetween) -> None:
+    """Enter into the ledger what MuJoCo reports otherwise."""
+    if setting(sensor, "measure_direction") == "child_to_parent":
+        message = (
+            f"force-torque sensor {sensor.name!r} reports what the child does to the parent; in MuJoCo its force and "
+            "torque are what the parent does to the child, with the opposite sign"
+        )
+        context.sink.account(Fate.APPROXIMATED, rules.NOT_IN_MJCF, message, sensor.location, 0)
+    if setting(sensor, "frame") == "parent" and joint.type != "fixed":
+        message = (
+            f"force-torque sensor {sensor.name!r} reports in the axes of the parent; in MuJoCo they turn with the child"
+        )
+        context.sink.account(Fate.APPROXIMATED, rules.NOT_IN_MJCF, message, sensor.location, 0)
+
+
+def _left(sensor: Sensor) -> Sensor:
+    """What the readings do not say: noises that differ by axis, the frame and the direction."""
+    said = {
+        f"force_torque/{kind}"
+        for kind in ("force", "torque")
+        if common_noise(sensor, "force_torque", kind) is not None
+    }
+    return without_elements(sensor, said)
