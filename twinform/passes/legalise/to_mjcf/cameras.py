@@ -9,7 +9,7 @@ import math
 from twinform.ir import Element, Pose, Sensor
 from twinform.ir.transform import Transform
 from twinform.passes.legalise.to_mjcf.elements import Value, make_element, placement
-from twinform.passes.legalise.to_mjcf.said_parts import child_number, child_text, child_vector
+from twinform.passes.legalise.to_mjcf.said_parts import child_number, child_vector
 from twinform.passes.legalise.to_mjcf.writing_context import Body, MjcfContext
 
 OPTICAL = Transform.from_pose(Pose.unchecked(quat_xyzw=(0.5, -0.5, -0.5, 0.5)))
@@ -20,6 +20,8 @@ _OUTPUTS = {
     "depth": "depth", "depth_camera": "depth", "rgbd": "rgb depth", "rgbd_camera": "rgb depth",
     "segmentation": "segmentation", "segmentation_camera": "segmentation",
 }  # fmt: skip
+_EULER = 6
+"""How many numbers a pose has whose orientation is not a quaternion."""
 SAID = frozenset({"camera/horizontal_fov", "camera/image/width", "camera/image/height"})
 """What MJCF says of a camera, but for its pose."""
 
@@ -39,7 +41,7 @@ def camera_element(
         return None
     attributes: list[tuple[str, Value]] = [
         ("name", name),
-        *placement(place.compose(_inner(context, camera, body)).compose(OPTICAL)),
+        *placement(_place(context, camera, body, place).compose(OPTICAL)),
         ("fovy", vertical_view(view, width, height)),
         ("resolution", (width, height)),
         ("output", _OUTPUTS.get(sensor.type or "")),
@@ -58,15 +60,15 @@ def _name(sensor: Sensor, camera: Element) -> str:
     return f"{sensor.name}_{own}" if own else sensor.name or "camera"
 
 
-def _inner(context: MjcfContext, camera: Element, body: Body) -> Transform:
-    """The pose of a camera in its sensor."""
-    del context, body
-    pose = camera.find("pose")
-    numbers = child_vector(pose)
-    if pose is None or numbers is None or child_text(pose) is None:
-        return Transform()
-    xyz = (numbers[0], numbers[1], numbers[2])
-    if pose.get("rotation_format") == "quat_xyzw":
-        return Transform.from_pose(Pose.unchecked(xyz=xyz, quat_xyzw=(numbers[3], numbers[4], numbers[5], numbers[6])))
-    degrees = pose.get("degrees") in {"true", "1"}
-    return Transform.from_pose(Pose.unchecked(xyz=xyz, rpy=(numbers[3], numbers[4], numbers[5]), degrees=degrees))
+def _place(context: MjcfContext, camera: Element, body: Body, sensor: Transform) -> Transform:
+    """The place of a camera in its body: it has a pose in its sensor, unless that names another frame."""
+    written = camera.find("pose")
+    numbers = child_vector(written) or ()
+    if written is None or len(numbers) not in {_EULER, _EULER + 1}:
+        return sensor
+    pose = Pose.unchecked(xyz=(numbers[0], numbers[1], numbers[2]), relative_to=written.get("relative_to") or None)
+    if len(numbers) > _EULER:
+        pose = pose.copy(quat_xyzw=numbers[3:])
+    else:
+        pose = pose.copy(rpy=numbers[3:], degrees=written.get("degrees") in {"true", "1"})
+    return context.resolve(pose, body) if pose.relative_to else sensor.compose(Transform.from_pose(pose))

@@ -1,16 +1,54 @@
-"""Contacts of MJCF: which geoms touch, how they slide, and the pairs and exclusions of the `contact` section."""
+"""Contacts of MJCF: which geoms touch, how they slide, and the exclusions of the `contact` section."""
 
-from twinform.ir import Collision
-from twinform.passes.legalise.to_mjcf.elements import Value
+from collections.abc import Iterator
+
+from twinform.ir import Collision, Surface
+from twinform.passes.legalise.to_mjcf.contact_plan import Bits
+from twinform.passes.legalise.to_mjcf.elements import Value, make_element
+from twinform.passes.legalise.to_mjcf.frictions import coefficient
+from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements
+from twinform.passes.legalise.to_mjcf.said_parts import without_elements
 from twinform.passes.legalise.to_mjcf.writing_context import Body, MjcfContext
+
+_USUAL = Bits(1, 1)
 
 
 def touch_of(context: MjcfContext, body: Body, collision: Collision) -> list[tuple[str, Value]]:
     """The attributes of the geom of a collision that say what it touches and how: `contype`, `friction`, and so on."""
-    del context, body, collision
-    return []
+    kept = {name: value for each in kept_elements(collision) if each.name == "geom" for name, value in each.attributes}
+    return [*_bits(context, body, collision, kept), *_friction(context, collision, kept)]
+
+
+def _bits(
+    context: MjcfContext, body: Body, collision: Collision, kept: dict[str, str]
+) -> Iterator[tuple[str, Value]]:
+    """Yield the bits of a geom that are not the usual ones; those of a geom of MJCF stay as they were."""
+    if kept.keys() & set(Bits._fields):
+        return
+    bits = context.contacts.bits(body.name, collision)
+    if bits != _USUAL:
+        yield from bits._asdict().items()
+
+
+def _friction(context: MjcfContext, collision: Collision, kept: dict[str, str]) -> Iterator[tuple[str, Value]]:
+    """Yield the sliding friction, before the other two of a geom of MJCF, and the priority that makes it count."""
+    mu = collision.surface.mu if collision.surface is not None else None
+    if mu is None:
+        return
+    others = tuple(map(float, kept.get("friction", "").split()[1:]))
+    yield "friction", (mu, *others)
+    priority = context.friction_priorities[coefficient(collision)]
+    if priority and "priority" not in kept:
+        yield "priority", str(priority)
 
 
 def add_contacts(context: MjcfContext) -> None:
     """Add the `contact` section: pairs and exclusions. All geoms have their names by now."""
-    del context
+    for pair in context.contacts.excluded:
+        one, other = (context.written_bodies[link] for link in pair)
+        context.add("contact", make_element("exclude", [("body1", one), ("body2", other)]))
+
+
+def unsaid_surface(surface: Surface) -> Surface:
+    """What MJCF does not say of a surface."""
+    return without_elements(surface, {"contact/collide_bitmask", "contact/category_bitmask"})

@@ -4,11 +4,11 @@ Both measure the acceleration without gravity: at rest they report 9.81 m/s^2 up
 """
 
 from twinform.ir import Sensor
+from twinform.ir.transform import Transform
 from twinform.passes.legalise.to_mjcf.said_parts import child_text, untyped, without_elements
 from twinform.passes.legalise.to_mjcf.sensor_parts import SensorParts, common_noise, reading
 from twinform.passes.legalise.to_mjcf.sites import sensor_site
 from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext
-from twinform.ir.transform import Transform
 
 _FALSE = frozenset({"false", "0"})
 

@@ -1,11 +1,92 @@
 """Colors, materials and textures of visuals."""
 
-from twinform.ir import Visual
-from twinform.passes.legalise.to_mjcf.elements import Value
+from pathlib import PurePosixPath
+
+from twinform.diagnostics import Location, rules
+from twinform.ir import Material, Visual
+from twinform.passes.legalise.to_mjcf.assets import file_path
+from twinform.passes.legalise.to_mjcf.elements import Value, make_element
+from twinform.passes.legalise.to_mjcf.looks import MAPS, Look, emission, is_plain, look
+from twinform.passes.legalise.to_mjcf.said_parts import without_elements
 from twinform.passes.legalise.to_mjcf.writing_context import Body, MjcfContext
+
+_IMAGES = frozenset({".png", ".ktx"})
+"""The images that MuJoCo reads."""
 
 
 def look_of(context: MjcfContext, body: Body, visual: Visual) -> list[tuple[str, Value]]:
     """The attributes of the geom of a visual that say how it looks: `rgba`, or the name of a material in `asset`."""
-    del context, body, visual
-    return []
+    found = look(visual)
+    textures = _textures(context, visual, found)
+    context.leave(visual, unsaid_visual(visual))
+    if not found.material and not textures:
+        return [("rgba", found.rgba)]
+    return [("material", _material(context, body, visual, found, textures))]
+
+
+def _material(
+    context: MjcfContext, body: Body, visual: Visual, found: Look, textures: list[tuple[str, str]]
+) -> str | None:
+    """The name of the material of a look; visuals that look alike share one."""
+    key = ("material", found.rgba, found.material, tuple(textures))
+    if key not in context.files:
+        name = context.name_in(body, "material", visual.name or "material", visual.location)
+        attributes: list[tuple[str, Value]] = [("name", name), ("rgba", found.rgba), *found.material]
+        layers = [make_element("layer", [("role", role), ("texture", texture)]) for role, texture in textures]
+        if len(textures) == 1 and textures[0][0] == "rgb":
+            attributes.append(("texture", textures[0][1]))
+            layers = []
+        context.add("asset", make_element("material", attributes, layers, visual.source))
+        context.files[key] = name
+    return context.files[key]
+
+
+def _textures(context: MjcfContext, visual: Visual, found: Look) -> list[tuple[str, str]]:
+    """The roles and names of the textures of a look; images that MuJoCo cannot read are reported."""
+    made: list[tuple[str, str]] = []
+    for role, uri in found.images:
+        if PurePosixPath(uri).suffix.lower() not in _IMAGES:
+            help_ = "save it as PNG"
+            message = f"image {uri!r} of visual {visual.name!r} is no PNG, and MuJoCo reads no other images"
+            context.sink.report(rules.UNREADABLE_IMAGE, message, visual.location, found=uri, help=help_)
+        elif (name := _texture(context, uri, visual.location)) is not None:
+            made.append((role, name))
+    return made
+
+
+def _texture(context: MjcfContext, uri: str, where: Location) -> str | None:
+    """The name of the texture of an image, which is made once for each file."""
+    key = ("texture", uri)
+    if key not in context.files:
+        file = file_path(context, uri, where)
+        name = context.name("texture", PurePosixPath(file).stem or "texture", where)
+        context.add("asset", make_element("texture", [("name", name), ("type", "2d"), ("file", file)]))
+        context.files[key] = name
+    return context.files[key]
+
+
+def unsaid_visual(visual: Visual) -> Visual:
+    """What MJCF leaves of a visual and of its material."""
+    left = without_elements(visual, {"transparency"})
+    return left if left.material is None else left.copy(material=unsaid_material(left.material))
+
+
+def unsaid_material(material: Material) -> Material:
+    """What MJCF does not say of a material: colors that are no gray, scripts, and images of other roles."""
+    said = {"shininess", "pbr/metal/roughness", "pbr/metal/metalness", *(f"pbr/metal/{name}" for name in MAPS)}
+    left = without_elements(material, said).copy(diffuse=None)
+    if material.ambient == material.diffuse:
+        left = left.copy(ambient=None)
+    if is_plain(material.specular):
+        left = left.copy(specular=None)
+    if _shines_in_its_color(material):
+        left = left.copy(emissive=None)
+    return left
+
+
+def _shines_in_its_color(material: Material) -> bool:
+    if material.emissive is None or not any(material.emissive[:3]):
+        return True
+    factor = emission(material)
+    pairs = zip(material.emissive[:3], (material.diffuse or (0.0, 0.0, 0.0))[:3], strict=True)
+    return all(abs(own * factor - shining) < 1e-9 for shining, own in pairs)  # noqa: PLR2004 - of one

@@ -13,7 +13,7 @@ _BESIDE = ("mean", "bias_mean", "bias_stddev", "dynamic_bias_stddev", "dynamic_b
 
 
 class SensorParts(NamedTuple):
-    """What a sensor becomes: sites and cameras of its body, elements of the section `sensor`, and what is left of it."""
+    """What a sensor becomes: sites and cameras of its body, elements of the section `sensor`, and what they leave."""
 
     in_body: list[Element]
     readings: list[Element]
@@ -26,7 +26,7 @@ def reading(kind: str, name: str | None, noise: float | None = None, **target: V
 
 
 def common_noise(sensor: Sensor, *groups: str) -> float | None:
-    """The standard deviation of the noise of all axes below a group of elements, such as `imu` and `linear_acceleration`.
+    """The standard deviation of the noise of all axes below elements such as `imu` and `linear_acceleration`.
 
     MJCF has one number for a whole reading, so that there is none where axes differ or a bias is written.
     """

@@ -1,20 +1,123 @@
 """Sensors of MJCF, and the sites and cameras that they are on.
 
-What belongs into the `sensor` section is added to the context (`context.add("sensor", element)`).
+A sensor of MJCF is one quantity, so that an IMU becomes three of them. What they are called begins with the name of the
+sensor. Sensors of which MuJoCo has no quantity, such as a GPS, are carried.
 """
 
-from twinform.ir import Element
+from twinform.diagnostics import rules
+from twinform.ir import Element, Sensor
 from twinform.ir.kinematic_tree import JointBetween
+from twinform.ir.transform import Transform
+from twinform.passes.legalise.to_mjcf.cameras import SAID, camera_element
+from twinform.passes.legalise.to_mjcf.imu_sensors import imu_parts
+from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements
+from twinform.passes.legalise.to_mjcf.rangefinders import MOST_RAYS, rangefinder_parts
+from twinform.passes.legalise.to_mjcf.said_parts import untyped, without_elements
+from twinform.passes.legalise.to_mjcf.sensor_parts import SensorParts, reading
+from twinform.passes.legalise.to_mjcf.sites import sensor_site
+from twinform.passes.legalise.to_mjcf.wrench_sensors import wrench_parts
 from twinform.passes.legalise.to_mjcf.writing_context import Body, MjcfContext
+
+_LIDARS = frozenset({"gpu_lidar", "gpu_ray", "lidar", "ray"})
+_CAMERAS = frozenset({
+    "boundingbox", "boundingbox_camera", "camera", "depth", "depth_camera", "multicamera", "rgbd", "rgbd_camera",
+    "segmentation", "segmentation_camera", "stereocamera", "thermal", "thermal_camera", "wide_angle_camera",
+    "wideanglecamera",
+})  # fmt: skip
 
 
 def body_sensors(context: MjcfContext, body: Body) -> list[Element]:
     """The sites and cameras of a body, for the sensors of its link."""
-    del context, body
-    return []
+    found: list[Element] = []
+    for sensor in body.link.sensors:
+        found += _written(context, sensor, _link_sensor(context, sensor, body))
+    return found
 
 
 def joint_sensors(context: MjcfContext, body: Body, held_by: JointBetween) -> list[Element]:
     """The sites for sensors on a joint, in the body that it holds."""
-    del context, body, held_by
-    return []
+    found: list[Element] = []
+    for sensor in held_by.joint.sensors:
+        if sensor.type == "force_torque":
+            site = _site_name(context, sensor, body)
+            found += _written(context, sensor, wrench_parts(context, sensor, site, held_by, body))
+    return found
+
+
+def _written(context: MjcfContext, sensor: Sensor, parts: SensorParts | None) -> list[Element]:
+    """Note the readings of a sensor, and return what stands in the body."""
+    if parts is None:
+        return []
+    for each in parts.readings:
+        context.add("sensor", each.copy(source=sensor.source))
+    context.leave(sensor, parts.left)
+    return parts.in_body
+
+
+def _link_sensor(context: MjcfContext, sensor: Sensor, body: Body) -> SensorParts | None:
+    if any(True for _ in kept_elements(sensor)):
+        return None
+    place = context.resolve(sensor.pose, body)
+    if sensor.type == "imu":
+        return imu_parts(context, sensor, _site_name(context, sensor, body), place)
+    if sensor.type in _CAMERAS:
+        return _camera_parts(context, sensor, body, place)
+    if sensor.type in _LIDARS:
+        return _lidar_parts(context, sensor, body, place)
+    if sensor.type == "contact":
+        return _contact_parts(context, sensor, body)
+    if sensor.type in _SINGLE:
+        return _single_parts(context, sensor, _site_name(context, sensor, body), place)
+    return None
+
+
+_SINGLE = frozenset({"altimeter", "magnetometer"})
+
+
+def _single_parts(context: MjcfContext, sensor: Sensor, site: str, place: Transform) -> SensorParts:
+    """The parts of a sensor that MuJoCo has one quantity for: its height is the third number of the position."""
+    name = context.name("sensor", site, sensor.location)
+    if sensor.type == "magnetometer":
+        made = reading("magnetometer", name, site=site)
+    else:
+        made = reading("framepos", name, objtype="site", objname=site)
+    return SensorParts([sensor_site(site, place)], [made], sensor)
+
+
+def _camera_parts(context: MjcfContext, sensor: Sensor, body: Body, place: Transform) -> SensorParts | None:
+    cameras = [part.element for part in sensor.opaque if part.element and part.element.name == "camera"]
+    made = [element for each in cameras if (element := camera_element(context, sensor, each, body, place)) is not None]
+    left = without_elements(sensor, SAID) if len(cameras) == 1 else sensor
+    return SensorParts(made, [], left) if made else None
+
+
+def _lidar_parts(context: MjcfContext, sensor: Sensor, body: Body, place: Transform) -> SensorParts | None:
+    made = rangefinder_parts(context, sensor, body.scope + (sensor.name or "lidar"), place)
+    if made is None:
+        message = f"lidar {sensor.name!r} has no or more than {MOST_RAYS} rays, and MuJoCo needs a site for each"
+        context.account(rules.NOT_IN_MJCF, message, sensor.location, 0)
+    return made
+
+
+def _contact_parts(context: MjcfContext, sensor: Sensor, body: Body) -> SensorParts | None:
+    """A reading for each collision that a contact sensor names: how many contacts it has, and their force."""
+    parameters = untyped(sensor, "contact")
+    names = [each.text for each in parameters.children if each.name == "collision"] if parameters is not None else []
+    made: list[Element] = []
+    for each in body.link.collisions:
+        geom = context.written_geoms.get(id(each))
+        if geom is not None and each.name in names:
+            wanted = f"{body.scope}{sensor.name}" if len(names) == 1 else f"{body.scope}{sensor.name}_{each.name}"
+            name = context.name("sensor", wanted, sensor.location)
+            made.append(make_contact(name, geom))
+    return SensorParts([], made, sensor) if made else None
+
+
+def make_contact(name: str | None, geom: str) -> Element:
+    """The reading of the contacts of a geom."""
+    return reading("contact", name, geom1=geom, data="found force", num=1, reduce="netforce")
+
+
+def _site_name(context: MjcfContext, sensor: Sensor, body: Body) -> str:
+    wanted = body.scope + (sensor.name or sensor.type or "sensor")
+    return context.name("site", wanted, sensor.location) or wanted

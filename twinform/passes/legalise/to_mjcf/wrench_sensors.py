@@ -68,8 +68,6 @@ def _report_differences(context: MjcfContext, sensor: Sensor, joint: JointBetwee
 def _left(sensor: Sensor) -> Sensor:
     """What the readings do not say: noises that differ by axis, the frame and the direction."""
     said = {
-        f"force_torque/{kind}"
-        for kind in ("force", "torque")
-        if common_noise(sensor, "force_torque", kind) is not None
+        f"force_torque/{kind}" for kind in ("force", "torque") if common_noise(sensor, "force_torque", kind) is not None
     }
     return without_elements(sensor, said)

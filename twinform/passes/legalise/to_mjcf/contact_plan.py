@@ -1,0 +1,161 @@
+"""Which links of a model or world touch, and how MJCF says so: by bits of their geoms, and by pairs that are excluded.
+
+In SDF two links of one model touch if one of them has `self_collide`, which a link has from its model, and never where
+a joint connects them. Links of different models touch. In MJCF all geoms touch but those of one body, or of a parent
+and its child that are both loose, where bodies that are fixed to each other are one. Two geoms touch if `contype` of
+the one has a bit of `conaffinity` of the other.
+
+A model whose links do not touch gets a bit of its own, which is in the `contype` of its geoms and in the `conaffinity`
+of everything but them. So a robot alone has 1 and 0, and still touches what has the defaults, 1 and 1.
+"""
+
+from collections import defaultdict
+from collections.abc import Iterator, Mapping
+from functools import cached_property
+from itertools import combinations
+from typing import NamedTuple
+
+from twinform.ir import Collision, Model, World
+from twinform.ir.frames import WORLD
+from twinform.ir.kinematic_tree import KinematicTree
+from twinform.ir.scopes import SCOPE, scoped_models
+from twinform.passes.legalise.to_mjcf.said_parts import untyped
+
+MOST_BITS = 31
+"""How many models may have a bit: the numbers are signed and have 32."""
+ALL_TOUCH = 65535
+"""The masks of a collision of SDF that has none written."""
+Pair = tuple[str, str]
+
+
+class Bits(NamedTuple):
+    """What a geom is, and what it touches."""
+
+    contype: int
+    conaffinity: int
+
+
+_USUAL = Bits(1, 1)
+
+
+class ContactPlan:
+    """The bits of each link, and the pairs of links that are excluded beside them.
+
+    Raises:
+        FrameError: an end of a joint is not known, or frames go round in a circle.
+    """
+
+    def __init__(self, holder: Model | World, tree: KinematicTree, static: frozenset[str]) -> None:
+        self._tree = tree
+        self._static = static
+        self._welds: dict[str, str] = {}
+        self._flagged = dict(_self_colliding(holder))
+        self._groups: dict[str, list[str]] = defaultdict(list)
+        """The links that have collisions, by the outermost model that they are in."""
+        for name, link in tree.links.items():
+            if link.collisions:
+                self._groups[name.partition(SCOPE)[0] if isinstance(holder, World) else ""].append(name)
+        self.has_masks = any(
+            mask_of(each, "collide_bitmask") is not None or mask_of(each, "category_bitmask") is not None
+            for link in tree.links.values()
+            for each in link.collisions
+        )
+
+    def bits(self, link: str, collision: Collision) -> Bits:
+        """The bits of a geom; those of its collision where a collision has any, as SDF defines them."""
+        if not self.has_masks:
+            return self._bits.get(link, _USUAL)
+        mask = mask_of(collision, "collide_bitmask")
+        category = mask_of(collision, "category_bitmask")
+        affinity = ALL_TOUCH if mask is None else mask
+        return Bits(affinity if category is None else category, affinity)
+
+    @cached_property
+    def _bits(self) -> Mapping[str, Bits]:
+        """The bits of links in models that have a bit."""
+        found: dict[str, Bits] = {}
+        apart = [links for links in self._groups.values() if any(self._needless_contacts(links))][:MOST_BITS]
+        everything = (1 << len(apart)) - 1
+        for index, links in enumerate(apart):
+            own = 1 << index
+            for link in links:
+                found[link] = Bits(own, everything if self._flagged[link] else everything ^ own)
+        return found
+
+    @cached_property
+    def excluded(self) -> tuple[Pair, ...]:
+        """The pairs of links that must not touch, and would by their bits."""
+        pairs = dict.fromkeys(self._joined())
+        for links in self._groups.values():
+            if self.has_masks or not any(link in self._bits for link in links):
+                pairs |= dict.fromkeys(self._needless_contacts(links))
+        return tuple(pairs)
+
+    def _needless_contacts(self, links: list[str]) -> Iterator[Pair]:
+        """Yield the pairs of links of one model that do not touch in SDF, and would in MuJoCo."""
+        loose = [link for link in links if not self._flagged[link]]
+        return (pair for pair in combinations(loose, 2) if not self._is_filtered(*pair))
+
+    def _joined(self) -> Iterator[Pair]:
+        """Yield the pairs of links that a joint connects, and that would touch by their bits."""
+        links = self._tree.links
+        between = [above for name in links if (above := self._tree.joint_above(name))]
+        for each in (*between, *self._tree.closing):
+            pair = (each.parent, each.child)
+            if not all(name in links and links[name].collisions for name in pair) or self._is_filtered(*pair):
+                continue
+            one, other = (self._bits.get(name, _USUAL) for name in pair)
+            if self.has_masks or one.contype & other.conaffinity or other.contype & one.conaffinity:
+                yield pair
+
+    def _is_filtered(self, one: str, other: str) -> bool:
+        """Whether MuJoCo leaves out the contacts of two links by itself."""
+        first, second = self._weld(one), self._weld(other)
+        if first == second:
+            return True
+        if WORLD in (first, second):
+            return False
+        return self._weld_above(first) == second or self._weld_above(second) == first
+
+    def _weld_above(self, weld: str) -> str:
+        above = self._tree.joint_above(weld)
+        return self._weld(above.parent) if above is not None else WORLD
+
+    def _weld(self, link: str) -> str:
+        """The topmost link that a link is fixed to, or `world`."""
+        way = [link]
+        while True:
+            here = way[-1]
+            if here in self._welds:
+                top = self._welds[here]
+                break
+            if here in self._static or (here == WORLD and here not in self._tree.links):
+                top = WORLD
+                break
+            above = self._tree.joint_above(here)
+            if above is None or above.type != "fixed":
+                top = here
+                break
+            way.append(above.parent)
+        self._welds.update(dict.fromkeys(way, top))
+        return top
+
+
+def mask_of(collision: Collision, name: str) -> int | None:
+    """The number of a bit mask in the surface of a collision, or None."""
+    element = untyped(collision.surface, name) if collision.surface is not None else None
+    return int(float(element.text)) if element is not None and element.text else None
+
+
+def _self_colliding(holder: Model | World) -> Iterator[tuple[str, bool]]:
+    """Yield all links, each with whether it touches other links of its model."""
+    tops = [("", holder)] if isinstance(holder, Model) else [(f"{each.name}{SCOPE}", each) for each in holder.models]
+    for top, model in tops:
+        of_models: dict[str, bool] = {}
+        for scope, each in scoped_models(model, top):
+            around = scope.removesuffix(SCOPE).rpartition(SCOPE)[0]
+            inherited = of_models.get(f"{around}{SCOPE}" if around else "", False)
+            of_models[scope] = inherited if each.self_collide is None else each.self_collide
+            for link in each.links:
+                own = link.self_collide
+                yield scope + link.name, of_models[scope] if own is None else own

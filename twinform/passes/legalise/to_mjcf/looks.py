@@ -1,0 +1,93 @@
+"""How a visual of SDF looks in MJCF: a color, or a material with shine, metal and textures.
+
+A visual with nothing but a color needs no material: its geom has the color itself.
+"""
+
+from collections.abc import Iterator, Mapping
+from typing import NamedTuple
+
+from twinform.ir import Color, Element, Material, Visual
+from twinform.passes.legalise.to_mjcf.elements import Value
+from twinform.passes.legalise.to_mjcf.said_parts import child_number, untyped
+
+_BRIGHTEST = 128.0
+"""The shininess of SDF that is 1 in MJCF, as in OpenGL."""
+_BLACK = (0.0, 0.0, 0.0, 1.0)
+MAPS: Mapping[str, str] = {
+    "albedo_map": "rgb", "normal_map": "normal", "ambient_occlusion_map": "occlusion", "roughness_map": "roughness",
+    "metalness_map": "metallic", "emissive_map": "emissive",
+}  # fmt: skip
+"""The images of SDF's metal-rough materials and their roles in MJCF."""
+
+
+class Look(NamedTuple):
+    """The look of a visual: its color, what a material says beside it, and images by their roles."""
+
+    rgba: tuple[float, ...] | None
+    material: tuple[tuple[str, Value], ...]
+    images: tuple[tuple[str, str], ...]
+
+
+def look(visual: Visual) -> Look:
+    """The look of a visual; of a script of Gazebo Classic there is none."""
+    material = visual.material
+    opacity = 1.0 - child_number(untyped(visual, "transparency"), default=0.0)
+    if material is None:
+        return Look(None, (), ())
+    images = tuple(_images(material))
+    return Look(_color(material, opacity, has_image=bool(images)), tuple(_shine(material)), images)
+
+
+def _color(material: Material, opacity: float, *, has_image: bool) -> tuple[float, ...] | None:
+    """The color with its opacity: what is lit is black where only other colors are written, as in Gazebo."""
+    color = material.diffuse
+    if color is None:
+        others = (material.ambient, material.specular, material.emissive)
+        if has_image or material.script or not any(others):
+            return None if opacity == 1.0 else (1.0, 1.0, 1.0, opacity)
+        color = _BLACK
+    red, green, blue, *alpha = color
+    return (red, green, blue, (alpha[0] if alpha else 1.0) * opacity)
+
+
+def _shine(material: Material) -> Iterator[tuple[str, Value]]:
+    """Yield what a material says beside the color."""
+    if material.emissive is not None and any(material.emissive[:3]):
+        yield "emission", emission(material)
+    if material.specular is not None:
+        red, *others = material.specular[:3]
+        yield "specular", red if is_plain(material.specular) else (red + sum(others)) / 3
+    shininess = untyped(material, "shininess")
+    if shininess is not None:
+        yield "shininess", min(child_number(shininess, default=0.0) / _BRIGHTEST, 1.0)
+    for name, key in (("metalness", "metallic"), ("roughness", "roughness")):
+        found = metal(material, name)
+        if found is not None:
+            yield key, child_number(found, default=0.5)
+
+
+def emission(material: Material) -> float:
+    """How much of its own color a material shines with: MJCF has one factor for all three."""
+    emissive, diffuse = material.emissive or _BLACK, material.diffuse or _BLACK
+    own = sum(diffuse[:3])
+    return sum(emissive[:3]) / own if own else 0.0
+
+
+def is_plain(color: Color | None) -> bool:
+    """Whether a color is a gray, which one number says."""
+    return color is None or len(set(color[:3])) == 1
+
+
+def metal(material: Material, name: str) -> Element | None:
+    """An element of the metal-rough part of a material."""
+    found = (part.element for part in material.opaque if part.at == "pbr/metal" and part.element)
+    return next((each for each in found if each.name == name), None)
+
+
+def _images(material: Material) -> Iterator[tuple[str, str]]:
+    """Yield the roles and URIs of the images of a material."""
+    for name, role in MAPS.items():
+        element = metal(material, name)
+        uri = material.albedo_map if name == "albedo_map" else element.text if element is not None else None
+        if uri:
+            yield role, uri
