@@ -9,6 +9,7 @@ import math
 from twinform.ir import Element, Pose, Sensor
 from twinform.ir.transform import Transform
 from twinform.passes.legalise.to_mjcf.elements import Value, make_element, placement
+from twinform.passes.legalise.to_mjcf.kept_mjcf import with_kept
 from twinform.passes.legalise.to_mjcf.said_parts import child_number, child_vector
 from twinform.passes.legalise.to_mjcf.writing_context import Body, MjcfContext
 
@@ -46,7 +47,7 @@ def camera_element(
         ("resolution", (width, height)),
         ("output", _OUTPUTS.get(sensor.type or "")),
     ]
-    return make_element("camera", attributes, source=sensor.source)
+    return with_kept(make_element("camera", attributes, source=sensor.source), sensor)
 
 
 def vertical_view(horizontal: float, width: int, height: int) -> float:
@@ -63,12 +64,13 @@ def _name(sensor: Sensor, camera: Element) -> str:
 def _place(context: MjcfContext, camera: Element, body: Body, sensor: Transform) -> Transform:
     """The place of a camera in its body: it has a pose in its sensor, unless that names another frame."""
     written = camera.find("pose")
-    numbers = child_vector(written) or ()
-    if written is None or len(numbers) not in {_EULER, _EULER + 1}:
+    numbers = child_vector(written)
+    if written is None or numbers is None or len(numbers) not in {_EULER, _EULER + 1}:
         return sensor
-    pose = Pose.unchecked(xyz=(numbers[0], numbers[1], numbers[2]), relative_to=written.get("relative_to") or None)
+    x, y, z, *turn = numbers
+    pose = Pose.unchecked(xyz=(x, y, z), relative_to=written.get("relative_to") or None)
     if len(numbers) > _EULER:
-        pose = pose.copy(quat_xyzw=numbers[3:])
+        pose = pose.copy(quat_xyzw=tuple(turn))
     else:
-        pose = pose.copy(rpy=numbers[3:], degrees=written.get("degrees") in {"true", "1"})
+        pose = pose.copy(rpy=tuple(turn), degrees=written.get("degrees") in {"true", "1"})
     return context.resolve(pose, body) if pose.relative_to else sensor.compose(Transform.from_pose(pose))

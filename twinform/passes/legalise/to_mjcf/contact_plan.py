@@ -19,6 +19,7 @@ from twinform.ir import Collision, Model, World
 from twinform.ir.frames import WORLD
 from twinform.ir.kinematic_tree import KinematicTree
 from twinform.ir.scopes import SCOPE, scoped_models
+from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements
 from twinform.passes.legalise.to_mjcf.said_parts import untyped
 
 MOST_BITS = 31
@@ -35,7 +36,9 @@ class Bits(NamedTuple):
     conaffinity: int
 
 
-_USUAL = Bits(1, 1)
+USUAL = Bits(1, 1)
+"""What a geom of MJCF has where nothing is written."""
+_MASKS = ("collide_bitmask", "category_bitmask")
 
 
 class ContactPlan:
@@ -45,9 +48,10 @@ class ContactPlan:
         FrameError: an end of a joint is not known, or frames go round in a circle.
     """
 
-    def __init__(self, holder: Model | World, tree: KinematicTree, static: frozenset[str]) -> None:
+    def __init__(self, holder: Model | World, tree: KinematicTree, static: frozenset[str], *, is_of_mjcf: bool) -> None:
         self._tree = tree
         self._static = static
+        self._is_of_mjcf = is_of_mjcf
         self._welds: dict[str, str] = {}
         self._flagged = dict(_self_colliding(holder))
         self._groups: dict[str, list[str]] = defaultdict(list)
@@ -55,25 +59,36 @@ class ContactPlan:
         for name, link in tree.links.items():
             if link.collisions:
                 self._groups[name.partition(SCOPE)[0] if isinstance(holder, World) else ""].append(name)
-        self.has_masks = any(
-            mask_of(each, "collide_bitmask") is not None or mask_of(each, "category_bitmask") is not None
-            for link in tree.links.values()
-            for each in link.collisions
-        )
+        collisions = [each for link in tree.links.values() for each in link.collisions]
+        self._has_masks = any(mask_of(each, name) is not None for each in collisions for name in _MASKS)
+        self._has_bits_of_geoms = self._has_masks or any(kept_bits(each) for each in collisions)
 
     def bits(self, link: str, collision: Collision) -> Bits:
         """The bits of a geom; those of its collision where a collision has any, as SDF defines them."""
-        if not self.has_masks:
-            return self._bits.get(link, _USUAL)
-        mask = mask_of(collision, "collide_bitmask")
-        category = mask_of(collision, "category_bitmask")
+        kept = kept_bits(collision)
+        if kept is not None:
+            return kept
+        if not self._has_masks:
+            return self._bits.get(link, USUAL)
+        mask, category = (mask_of(collision, name) for name in _MASKS)
         affinity = ALL_TOUCH if mask is None else mask
         return Bits(affinity if category is None else category, affinity)
+
+    @cached_property
+    def excluded(self) -> tuple[Pair, ...]:
+        """The pairs of links that must not touch, and would by their bits."""
+        pairs = {} if self._is_of_mjcf else dict.fromkeys(self._joined())
+        for links in self._groups.values():
+            if not any(link in self._bits for link in links):
+                pairs |= dict.fromkeys(pair for pair in self._needless_contacts(links) if self._touch(*pair))
+        return tuple(pairs)
 
     @cached_property
     def _bits(self) -> Mapping[str, Bits]:
         """The bits of links in models that have a bit."""
         found: dict[str, Bits] = {}
+        if self._has_bits_of_geoms:
+            return found
         apart = [links for links in self._groups.values() if any(self._needless_contacts(links))][:MOST_BITS]
         everything = (1 << len(apart)) - 1
         for index, links in enumerate(apart):
@@ -81,15 +96,6 @@ class ContactPlan:
             for link in links:
                 found[link] = Bits(own, everything if self._flagged[link] else everything ^ own)
         return found
-
-    @cached_property
-    def excluded(self) -> tuple[Pair, ...]:
-        """The pairs of links that must not touch, and would by their bits."""
-        pairs = dict.fromkeys(self._joined())
-        for links in self._groups.values():
-            if self.has_masks or not any(link in self._bits for link in links):
-                pairs |= dict.fromkeys(self._needless_contacts(links))
-        return tuple(pairs)
 
     def _needless_contacts(self, links: list[str]) -> Iterator[Pair]:
         """Yield the pairs of links of one model that do not touch in SDF, and would in MuJoCo."""
@@ -102,11 +108,16 @@ class ContactPlan:
         between = [above for name in links if (above := self._tree.joint_above(name))]
         for each in (*between, *self._tree.closing):
             pair = (each.parent, each.child)
-            if not all(name in links and links[name].collisions for name in pair) or self._is_filtered(*pair):
-                continue
-            one, other = (self._bits.get(name, _USUAL) for name in pair)
-            if self.has_masks or one.contype & other.conaffinity or other.contype & one.conaffinity:
+            if all(name in links for name in pair) and not self._is_filtered(*pair) and self._touch(*pair):
                 yield pair
+
+    def _touch(self, one: str, other: str) -> bool:
+        """Whether any geoms of two links touch by their bits."""
+        mine, others = self._bits_of(one), self._bits_of(other)
+        return any(a.contype & b.conaffinity or b.contype & a.conaffinity for a in mine for b in others)
+
+    def _bits_of(self, link: str) -> frozenset[Bits]:
+        return frozenset(self.bits(link, each) for each in self._tree.links[link].collisions)
 
     def _is_filtered(self, one: str, other: str) -> bool:
         """Whether MuJoCo leaves out the contacts of two links by itself."""
@@ -145,6 +156,14 @@ def mask_of(collision: Collision, name: str) -> int | None:
     """The number of a bit mask in the surface of a collision, or None."""
     element = untyped(collision.surface, name) if collision.surface is not None else None
     return int(float(element.text)) if element is not None and element.text else None
+
+
+def kept_bits(collision: Collision) -> Bits | None:
+    """The bits that a collision keeps of the geom of MJCF that it was read from."""
+    kept = {name: value for each in kept_elements(collision) if each.name == "geom" for name, value in each.attributes}
+    if not kept.keys() & set(Bits._fields):
+        return None
+    return Bits(int(float(kept.get("contype", "1"))), int(float(kept.get("conaffinity", "1"))))
 
 
 def _self_colliding(holder: Model | World) -> Iterator[tuple[str, bool]]:

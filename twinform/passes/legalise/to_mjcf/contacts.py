@@ -3,42 +3,36 @@
 from collections.abc import Iterator
 
 from twinform.ir import Collision, Surface
-from twinform.passes.legalise.to_mjcf.contact_plan import Bits
+from twinform.passes.legalise.to_mjcf.contact_plan import USUAL, kept_bits
 from twinform.passes.legalise.to_mjcf.elements import Value, make_element
 from twinform.passes.legalise.to_mjcf.frictions import coefficient
 from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements
 from twinform.passes.legalise.to_mjcf.said_parts import without_elements
 from twinform.passes.legalise.to_mjcf.writing_context import Body, MjcfContext
 
-_USUAL = Bits(1, 1)
-
 
 def touch_of(context: MjcfContext, body: Body, collision: Collision) -> list[tuple[str, Value]]:
     """The attributes of the geom of a collision that say what it touches and how: `contype`, `friction`, and so on."""
-    kept = {name: value for each in kept_elements(collision) if each.name == "geom" for name, value in each.attributes}
-    return [*_bits(context, body, collision, kept), *_friction(context, collision, kept)]
+    return [*_bits(context, body, collision), *_friction(context, collision)]
 
 
-def _bits(
-    context: MjcfContext, body: Body, collision: Collision, kept: dict[str, str]
-) -> Iterator[tuple[str, Value]]:
+def _bits(context: MjcfContext, body: Body, collision: Collision) -> Iterator[tuple[str, Value]]:
     """Yield the bits of a geom that are not the usual ones; those of a geom of MJCF stay as they were."""
-    if kept.keys() & set(Bits._fields):
-        return
     bits = context.contacts.bits(body.name, collision)
-    if bits != _USUAL:
-        yield from bits._asdict().items()
+    if kept_bits(collision) is None and bits != USUAL:
+        yield "contype", str(bits.contype)
+        yield "conaffinity", str(bits.conaffinity)
 
 
-def _friction(context: MjcfContext, collision: Collision, kept: dict[str, str]) -> Iterator[tuple[str, Value]]:
+def _friction(context: MjcfContext, collision: Collision) -> Iterator[tuple[str, Value]]:
     """Yield the sliding friction, before the other two of a geom of MJCF, and the priority that makes it count."""
     mu = collision.surface.mu if collision.surface is not None else None
     if mu is None:
         return
-    others = tuple(map(float, kept.get("friction", "").split()[1:]))
+    kept = [each.get("friction") or "" for each in kept_elements(collision) if each.name == "geom"]
+    others = tuple(map(float, kept[0].split()[1:])) if kept else ()
     yield "friction", (mu, *others)
-    priority = context.friction_priorities[coefficient(collision)]
-    if priority and "priority" not in kept:
+    if not context.is_of_mjcf and (priority := context.friction_priorities[coefficient(collision)]):
         yield "priority", str(priority)
 
 

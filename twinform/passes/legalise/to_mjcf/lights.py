@@ -48,9 +48,7 @@ def world_lights(context: MjcfContext) -> list[Element]:
 
 def _light(context: MjcfContext, light: Light, place: Transform) -> Element:
     name = context.name("light", light.name, light.location)
-    element = make_element("light", [("name", name), *light_attributes(light, place)], source=light.source)
-    context.leave(light, unsaid_light(light))
-    return with_kept(element, light)
+    return with_kept(make_element("light", [("name", name), *light_attributes(light, place)], (), light.source), light)
 
 
 def light_attributes(light: Light, place: Transform) -> Attributes:
@@ -68,7 +66,7 @@ def light_attributes(light: Light, place: Transform) -> Attributes:
         *_attenuation(untyped(light, "attenuation"), kind),
     ]
     if spot is not None:
-        found += [("cutoff", _cutoff(spot)), ("exponent", child_number(spot, "falloff", default=0.0))]
+        found += [("cutoff", _cutoff(spot)), ("exponent", _exponent(spot))]
     return found
 
 
@@ -90,11 +88,11 @@ def _direction(light: Light, place: Transform) -> Vector3 | None:
 
 
 def _attenuation(written: Element | None, kind: str) -> Attributes:
-    """How the light fades: constant, linear and quadratic part; a directional light does not.
+    """How a light fades: constant, linear and quadratic part, and how far it shines; a directional one does not fade.
 
-    SDF has a linear part of one where nothing is written, and MJCF has none.
+    Where SDF writes one part alone, the others have its defaults, which are not those of MJCF.
     """
-    if kind == "directional":
+    if written is None or kind == "directional":
         return []
     parts = tuple(child_number(written, each, default=usual) for each, usual in _FADING)
     reach = child_text(written, "range")
@@ -105,3 +103,8 @@ def _cutoff(spot: Element) -> float | None:
     """The angle between the axis and the edge of the cone in degrees: SDF has the whole angle of the cone."""
     outer = child_number(spot, "outer_angle", default=0.0)
     return math.degrees(outer) / 2 if outer > 0 else None
+
+
+def _exponent(spot: Element) -> float | None:
+    """How fast a spot fades from its axis to its edge, where that is written."""
+    return child_number(spot, "falloff", default=0.0) or None

@@ -6,6 +6,7 @@ from twinform.diagnostics import Location, rules
 from twinform.ir import Material, Visual
 from twinform.passes.legalise.to_mjcf.assets import file_path
 from twinform.passes.legalise.to_mjcf.elements import Value, make_element
+from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements
 from twinform.passes.legalise.to_mjcf.looks import MAPS, Look, emission, is_plain, look
 from twinform.passes.legalise.to_mjcf.said_parts import without_elements
 from twinform.passes.legalise.to_mjcf.writing_context import Body, MjcfContext
@@ -17,6 +18,8 @@ _IMAGES = frozenset({".png", ".ktx"})
 def look_of(context: MjcfContext, body: Body, visual: Visual) -> list[tuple[str, Value]]:
     """The attributes of the geom of a visual that say how it looks: `rgba`, or the name of a material in `asset`."""
     found = look(visual)
+    if any(each.name == "geom" and each.get("material") for each in kept_elements(visual)):
+        return [("rgba", found.rgba)]  # the material that it was read with is among the assets still
     textures = _textures(context, visual, found)
     context.leave(visual, unsaid_visual(visual))
     if not found.material and not textures:
@@ -89,4 +92,4 @@ def _shines_in_its_color(material: Material) -> bool:
         return True
     factor = emission(material)
     pairs = zip(material.emissive[:3], (material.diffuse or (0.0, 0.0, 0.0))[:3], strict=True)
-    return all(abs(own * factor - shining) < 1e-9 for shining, own in pairs)  # noqa: PLR2004 - of one
+    return all(abs(own * factor - shining) < 1e-9 for shining, own in pairs)

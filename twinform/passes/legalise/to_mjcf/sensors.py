@@ -30,15 +30,24 @@ def body_sensors(context: MjcfContext, body: Body) -> list[Element]:
     """The sites and cameras of a body, for the sensors of its link."""
     found: list[Element] = []
     for sensor in body.link.sensors:
-        found += _written(context, sensor, _link_sensor(context, sensor, body))
+        if not _add_kept(context, sensor):
+            found += _written(context, sensor, _link_sensor(context, sensor, body))
     return found
+
+
+def _add_kept(context: MjcfContext, sensor: Sensor) -> bool:
+    """Add the readings that a sensor keeps of the file of MJCF that it was read from, whose site is a frame now."""
+    kept = [reading for each in kept_elements(sensor) if each.name == "sensor" for reading in each.children]
+    for each in kept:
+        context.add("sensor", each)
+    return bool(kept)
 
 
 def joint_sensors(context: MjcfContext, body: Body, held_by: JointBetween) -> list[Element]:
     """The sites for sensors on a joint, in the body that it holds."""
     found: list[Element] = []
     for sensor in held_by.joint.sensors:
-        if sensor.type == "force_torque":
+        if not _add_kept(context, sensor) and sensor.type == "force_torque":
             site = _site_name(context, sensor, body)
             found += _written(context, sensor, wrench_parts(context, sensor, site, held_by, body))
     return found
@@ -55,8 +64,6 @@ def _written(context: MjcfContext, sensor: Sensor, parts: SensorParts | None) ->
 
 
 def _link_sensor(context: MjcfContext, sensor: Sensor, body: Body) -> SensorParts | None:
-    if any(True for _ in kept_elements(sensor)):
-        return None
     place = context.resolve(sensor.pose, body)
     if sensor.type == "imu":
         return imu_parts(context, sensor, _site_name(context, sensor, body), place)

@@ -12,13 +12,16 @@ from typing import NamedTuple
 
 from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, Fate, Location, Rule, rules
-from twinform.ir import Document, Element, Frame, Link, Model, Node, Pose, World, replace_fields
+from twinform.ir import Document, Element, Format, Frame, Link, Model, Node, Pose, World, replace_fields
 from twinform.ir.frames import WORLD, Kind
 from twinform.ir.kinematic_tree import KinematicTree
 from twinform.ir.scopes import SCOPE, scoped_models
 from twinform.ir.transform import Transform
+from twinform.passes.carriers.annotations import came_from
 from twinform.passes.carriers.carriers import Keeper
 from twinform.passes.framework.assets import NO_ASSETS, Assets
+from twinform.passes.legalise.to_mjcf.contact_plan import ContactPlan
+from twinform.passes.legalise.to_mjcf.frictions import friction_priorities
 from twinform.passes.shared.replaced_shapes import ShapeReplacer
 
 _RESERVED = {"body": frozenset({"world"})}
@@ -111,6 +114,27 @@ class MjcfContext:
     def has_visuals(self) -> bool:
         """Whether any link has a visual."""
         return any(link.visuals for link in self.tree.links.values())
+
+    @cached_property
+    def is_of_mjcf(self) -> bool:
+        """Whether the document was read of MJCF, so that what SDF leaves to its defaults stays as MJCF has it."""
+        models = (self.holder,) if isinstance(self.holder, Model) else self.holder.models
+        source = self.document.source
+        return (source is not None and source.step == "mujoco") or any(came_from(each, Format.MJCF) for each in models)
+
+    @cached_property
+    def contacts(self) -> ContactPlan:
+        """Which links touch.
+
+        Raises:
+            FrameError: an end of a joint is not known, or frames go round in a circle.
+        """
+        return ContactPlan(self.holder, self.tree, self.static_links, is_of_mjcf=self.is_of_mjcf)
+
+    @cached_property
+    def friction_priorities(self) -> Mapping[float, int]:
+        """The priority of geoms by their coefficient of friction."""
+        return friction_priorities(each for link in self.tree.links.values() for each in link.collisions)
 
     @cached_property
     def frames_by_link(self) -> Mapping[str, list[ScopedFrame]]:
