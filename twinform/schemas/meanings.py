@@ -44,10 +44,20 @@ def meanings(format: str) -> Mapping[Path, str]:
                 raise ValueError(f"{file.name}: {' '.join(path)} has two meanings")
             else:
                 found[path] = text
-    for path, like in likes:
+    for path, like in _innermost_first(likes):
         below = {(*path, *known[len(like) :]): text for known, text in found.items() if known[: len(like)] == like}
         found |= {each: text for each, text in below.items() if each not in found}
     return found
+
+
+def _innermost_first(likes: list[tuple[Path, Path]]) -> Iterator[tuple[Path, Path]]:
+    """Yield rows that stand for other places, each behind those in the place that it stands for."""
+    waiting = likes
+    while waiting:
+        late = [(path, like) for path, like in waiting if any(other[: len(like)] == like for other, _ in waiting)]
+        late = late if len(late) < len(waiting) else []  # they stand for each other
+        yield from (each for each in waiting if each not in late)
+        waiting = late
 
 
 def rows_with_paths(facts: Table) -> Iterator[tuple[Path, Fact]]:

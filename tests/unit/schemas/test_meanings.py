@@ -13,7 +13,7 @@ from twinform.schemas.meanings import Documentation, meanings, rows_with_paths, 
 from twinform.schemas.packaged import XsdVersion
 from twinform.schemas.xsd_values import XS
 
-FORMATS = ("urdf", "sdf")
+FORMATS = ("urdf", "sdf", "mjcf")
 
 
 @pytest.mark.parametrize("name", FORMATS)
