@@ -59,9 +59,9 @@ ROOTS: dict[str, tuple[str, list[Finding]]] = {
                 "error",
                 1,
                 "/gazebo",
-                "the root element is <gazebo>; expected <robot> or <sdf>",
+                "the root element is <gazebo>; expected <robot>, <sdf> or <mujoco>",
                 "gazebo",
-                "robot or sdf",
+                "robot, sdf or mujoco",
             )
         ],
     ),
