@@ -317,7 +317,7 @@ def _require_model(source: InputSource, passes: Pipeline | None) -> None:
     Raises:
         click.UsageError: it is JSON or xacro, or a pass makes other files.
     """
-    if source.format == "json" or (passes and source.name.lower().endswith(XACRO)):
+    if source.format == "json" or (passes and (source.format == "mjcf" or source.name.lower().endswith(XACRO))):
         raise click.UsageError(f"{source.name} is not URDF or SDF: change it by hand, or convert it first")
     made = [step.only_file for step in passes or () if isinstance(step, FilesPass) and step.only_file]
     if made:

@@ -91,7 +91,7 @@ class ModelTools:
     def convert(
         self,
         path: ModelPath,
-        to: Annotated[Literal["urdf", "sdf"], Field(description="The format of the result.")],
+        to: Annotated[Literal["urdf", "sdf", "mjcf"], Field(description="The format of the result.")],
         output: Annotated[str, Field(description="Where to write the result; else the answer has its text.")] = "",
         sdf_version: Annotated[str, Field(description="The version of SDF to write, such as 1.9.")] = "",
         passes: Annotated[str, Field(description="Passes to run before, such as 'fill-limits{effort=100}'.")] = "",
@@ -144,7 +144,7 @@ class ModelTools:
 
     def schema(
         self,
-        format: Annotated[Literal["urdf", "sdf"], Field(description="The format.")],
+        format: Annotated[Literal["urdf", "sdf", "mjcf"], Field(description="The format.")],
         element: Annotated[str, Field(description="An element, such as joint or axis/limit.")],
         version: Annotated[str, Field(description="A version of the format; the newest if it is not given.")] = "",
     ) -> Answer:
@@ -182,12 +182,14 @@ class ModelTools:
             ValueError: it is not below the root, or hidden, or not called like a model.
         """
         place = Path(self._below(output))
-        endings = (".urdf",) if to == "urdf" else (".sdf", ".world")
+        endings = _ENDINGS[to]
         if place.suffix not in endings:
             raise ValueError(f"{output} has to end in {' or '.join(endings)}")
         return place
 
 
+_ENDINGS = {"urdf": (".urdf",), "sdf": (".sdf", ".world"), "mjcf": (".xml", ".mjcf")}
+"""The endings of files in a format."""
 TOOLS: Mapping[str, Callable[..., Answer]] = {
     each.__name__: each
     for each in (

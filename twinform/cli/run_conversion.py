@@ -24,6 +24,7 @@ from twinform.compiler.input.load_options import XACRO
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, Fate, Ledger, Policy
 from twinform.diagnostics.reporters import FileFindings, printable
+from twinform.ir import Format
 from twinform.passes import FilesPass, PassError, PassInstrumentation, Pipeline
 from twinform.request_options import Language, RequestOptions
 from twinform.storage.writing import folded, is_stream
@@ -36,7 +37,6 @@ if TYPE_CHECKING:
 Target = Language
 TARGETS: tuple[Target, ...] = get_args(Target)
 
-_OTHER: dict[str, Target] = {"urdf": "sdf", "sdf": "urdf", "mjcf": "sdf"}
 _ENDINGS = frozenset({".urdf", ".sdf", ".world", ".xml", ".mjcf", ".json", ".xacro"})
 
 
@@ -91,6 +91,8 @@ def _job_in_place(source: InputSource, target: Target | None) -> ConversionJob:
         raise click.UsageError(f"{source.name} is no file that could be written in place")
     if source.name.lower().endswith(XACRO):
         raise click.UsageError(f"{source.name} would be replaced by what it expands to; name another file with -o")
+    if source.format == "mjcf":
+        raise click.UsageError(f"{source.name} is MJCF, which is written anew: name another file with --to mjcf -o")
     found = known_target(source.format)
     if found is None or target not in {None, found}:
         raise click.UsageError(f"{source.name} stays {found or 'what it is'} in its place; leave --to out")
@@ -109,8 +111,8 @@ def known_target(word: str | None) -> Target | None:
 def _other_format(source: InputSource) -> Target:
     """Return the format to convert a source to; if its own format is unknown, the compiler reports why."""
     if source.format == "json":
-        raise click.UsageError(f"{source.name} is a JSON document, which can become either format: give --to")
-    return _OTHER.get(source.format or "urdf", "sdf")
+        raise click.UsageError(f"{source.name} is a JSON document, which can become any format: give --to")
+    return Format(source.format or "urdf").counterpart.value
 
 
 def _job_in_folder(folder: Path, source: InputSource, target: Target) -> ConversionJob:
@@ -328,7 +330,7 @@ def run_into(source: InputSource, into: Path | None, base: Path | None, options:
     if isinstance(source.content, bytes):
         raise click.UsageError(f"{source.name} is no file that could have been made of {into}")
     target = known_target(InputSource(str(into), str(into)).format)
-    if target is None or target in {"json", source.format} or str(into).lower().endswith(XACRO):
+    if target is None or target in {"json", "mjcf", source.format} or str(into).lower().endswith(XACRO):
         raise click.UsageError(f"--into takes a file of the other format, URDF or SDF, which {into} is not")
     request = options.request_for(ConversionJob(source, target, into))
     try:

@@ -276,7 +276,7 @@ def advise(
     if document is None or not loaded.accepted:
         raise loaded.error()
     macros = loaded.path.lower().endswith(XACRO) or bool(loaded.origins)
-    other = Format.SDF if document.format is Format.URDF else Format.URDF
+    other = document.format.counterpart
     forms = {
         document.format: own_form(loaded, document),
         other: converted_form(source, loaded.path, other, load_options, model),

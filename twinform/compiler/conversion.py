@@ -33,6 +33,8 @@ from twinform.passes.sdf_versions import has_early_frames
 from twinform.passes.shared.candidates import candidates, name_once_expanded, wanted_includes
 from twinform.schemas import XmlElement
 
+_WITHOUT_INCLUDES = frozenset({"urdf", "mjcf"})
+"""Formats in which a model is whole."""
 _LAST_LINE = 2**16 - 1
 """The last line that libxml2 can be told."""
 
@@ -99,7 +101,7 @@ def convert_once(
         # expanded, and no others; for an older SDF those that would be another robot in it.
         newer = _newer_includes(loaded.document, request)
         if loaded.accepted and (
-            request.expand_includes or request.to in {"urdf", "mjcf"} or request.model is not None or newer
+            request.expand_includes or request.to in _WITHOUT_INCLUDES or request.model is not None or newer
         ):
             from twinform.compiler.expand_includes import expand  # noqa: PLC0415 - most conversions need no includes
 
@@ -139,7 +141,7 @@ def _includes_to_expand(
     if request.model is None and request.to == "sdf":
         return lambda include: id(include) in newer
     wanted = wanted_includes(document, request.model)
-    if request.to in {"urdf", "mjcf"} or document is None:
+    if request.to in _WITHOUT_INCLUDES or document is None:
         return wanted
     placed = {id(one.model) for one in candidates(document)} | newer
     return lambda include: id(include) in placed and wanted(include)

@@ -11,9 +11,9 @@ from twinform.ir import Document
 from twinform.option import require_value
 from twinform.storage.writing import write_atomically
 
-Written = Literal["urdf", "sdf", "json"]
+Written = Literal["urdf", "sdf", "mjcf", "json"]
 
-_SUFFIXES: dict[str, Written] = {".urdf": "urdf", ".sdf": "sdf", ".world": "sdf", ".json": "json"}
+_SUFFIXES: dict[str, Written] = {".urdf": "urdf", ".sdf": "sdf", ".world": "sdf", ".mjcf": "mjcf", ".json": "json"}
 
 
 def dumps(document: Document, *, to: Written | None = None) -> str:
@@ -21,7 +21,7 @@ def dumps(document: Document, *, to: Written | None = None) -> str:
 
     Raises:
         CompileError: its format cannot express it; what is wrong is in the diagnostics.
-        ValueError: `to` is no format, or the other one, for which there is `convert`.
+        ValueError: `to` is no format, or another one, for which there is `convert`.
     """
     require_value("to", to, get_args(Written))
     if to not in {None, "json", document.format.value}:
@@ -50,7 +50,7 @@ def dump(document: Document, path: str | Path, *, to: Written | None = None) -> 
     Raises:
         CompileError: its format cannot express it; what is wrong is in the diagnostics.
         OSError: the file cannot be written.
-        ValueError: the name is that of a file of the other format, for which there is `convert`.
+        ValueError: the name is that of a file of another format, for which there is `convert`.
     """
     path = Path(path)
     write_atomically(path, dumps(document, to=to or _SUFFIXES.get(path.suffix.lower())))

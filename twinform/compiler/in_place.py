@@ -82,6 +82,10 @@ def updated(
     own, source = file.tree, file.content
     if own is None or source is None or before is None:
         raise file.error()
+    if file.is_mjcf:  # its document is in the terms of SDF, and so are all edits
+        message = "MJCF cannot be changed in place: convert it with --to mjcf, and name another file with -o"
+        sink.report(EDIT_CONFLICT, message, Location(line=1, path="/mujoco"))
+        raise CompileError((*conversion.diagnostics, *sink.diagnostics))
     try:
         merged = _merged(document_tree(before), document_tree(conversion.document), own, same=same)
         if not merged.conflicts:

@@ -182,7 +182,7 @@ def _shorten(text: str) -> str:
     return text if len(text) <= _LONGEST else f"{text[: _LONGEST - 3]}..."
 
 
-_FORMATS = {"robot": "urdf", "sdf": "sdf"}
+_FORMATS = {"robot": "urdf", "sdf": "sdf", "mujoco": "mjcf"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -212,7 +212,7 @@ def normal_form(source: str | Path | bytes, *, name: str = "") -> NormalForm:
     The file may have errors, but it has to be XML of one of the formats.
 
     Raises:
-        CompileError: the file cannot be read as URDF or SDF.
+        CompileError: the file cannot be read as URDF, SDF or MJCF.
     """
     if not isinstance(source, bytes):
         checked = read(source, LoadOptions(), name=name)

@@ -1,6 +1,7 @@
-"""Documents: whole files, URDF or SDF, and the worlds in them."""
+"""Documents: whole files in one of the formats, and the worlds in them."""
 
 from enum import StrEnum
+from typing import assert_never
 
 from twinform.ir.element import Namespace
 from twinform.ir.joint import Joint
@@ -43,6 +44,17 @@ class Format(StrEnum):
     URDF = "urdf"
     SDF = "sdf"
     MJCF = "mjcf"
+
+    @property
+    def counterpart(self) -> "Format":
+        """The format that a file of this one is converted to where none is asked for."""
+        match self:
+            case Format.SDF:
+                return Format.URDF
+            case Format.URDF | Format.MJCF:
+                return Format.SDF
+            case _:
+                assert_never(self)
 
 
 @record

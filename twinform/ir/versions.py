@@ -45,6 +45,8 @@ def version_read(format: str, declared: str | None) -> Version:
 def known_version(format: str, declared: str | None) -> Version | None:
     """The version that readers understand a declaration as; None where they refuse the file for it."""
     versions = versions_of(format)
+    if format == "mjcf":  # which has no declaration: files are for the program
+        return parse_version(versions[-1])
     if declared is None:
         return parse_version(versions[0]) if format == "urdf" else None
     if declared in versions:

@@ -225,7 +225,7 @@ def _examine(source: Input, name: str, load_options: LoadOptions, *, meshes: boo
 def _convert(source: Input, subject: ReportSubject, load_options: LoadOptions, model: str | None) -> Converted | None:
     if subject.document is None or not subject.loaded.accepted:
         return None
-    target = Format.SDF if subject.document.format is Format.URDF else Format.URDF
+    target = subject.document.format.counterpart
     request = ConversionRequest(to=target.value, model=model)
     try:
         return Converted(target, run_conversion(request, source, load_options, name=subject.name).ledger)

@@ -28,14 +28,31 @@ _INSTEAD = {
     ("sdf", "gazebo"): "SDF needs no <gazebo>: what is in it stands in the link, joint or model itself",
     ("sdf", "transmission"): "it is an element of URDF; in SDF a plugin drives the joints",
     ("sdf", "safety_controller"): "it is an element of URDF; SDF has <limit> in <axis>",
+    ("mjcf", "link"): "MJCF writes <body>, and the bodies that hang on it inside",
+    ("mjcf", "collision"): "MJCF writes <geom>",
+    ("mjcf", "visual"): "MJCF writes <geom contype='0' conaffinity='0'>",
+    ("mjcf", "geometry"): "MJCF writes <geom type='...' size='...'>",
+    ("mjcf", "origin"): "MJCF writes pos='x y z' and quat='w x y z' into the element",
+    ("mjcf", "pose"): "MJCF writes pos='x y z' and quat='w x y z' into the element",
+    ("mjcf", "limit"): "MJCF writes range='lower upper' into the joint",
+    ("mjcf", "dynamics"): "MJCF writes damping='...' and frictionloss='...' into the joint",
+    ("mjcf", "mimic"): "MJCF writes <joint joint1='...' joint2='...' polycoef='...'/> into <equality>",
+    ("mjcf", "sdf"): "the root of MJCF is <mujoco>",
+    ("mjcf", "robot"): "the root of MJCF is <mujoco>",
 }
-"""What to write instead of an element of the other format."""
+"""What to write instead of an element of another format."""
+_OTHERS = {"urdf": ("sdf",), "sdf": ("urdf",), "mjcf": ("urdf", "sdf")}
+"""The formats of which somebody may have used an element."""
 _SAME = {
     "altitude": "altimeter",
+    "continuous": "hinge",
+    "floating": "free",
     "free": "floating",
     "height": "length",
     "hinge": "revolute",
     "laser": "gpu_lidar",
+    "prismatic": "slide",
+    "revolute": "hinge",
     "rigid": "fixed",
     "rotary": "revolute",
     "rotation": "revolute",
@@ -69,7 +86,7 @@ def hint_for_element(
         _INSTEAD.get((format_, name))
         or did_you_mean(name, known)
         or _elsewhere(format_, name, around)
-        or (f"it is an element of {_other(format_).upper()}" if name in _parents(_other(format_)) else None)
+        or next((f"it is an element of {each.upper()}" for each in _OTHERS[format_] if name in _parents(each)), None)
     )
 
 
@@ -78,10 +95,6 @@ def hint_for_attribute(format_: str, name: str, known: Collection[str], children
     if name in children:
         return f"{format_.upper()} writes it as an element: <{name}>...</{name}>"
     return hint_for_word(name, known)
-
-
-def _other(format_: str) -> str:
-    return "sdf" if format_ == "urdf" else "urdf"
 
 
 def new_holder(format_: str, fact: Fact, around: Sequence[str], version: Version) -> str | None:

@@ -207,6 +207,9 @@ def _has_text(node: TolerantNode) -> bool:
 
 def _defines(document: ModelText, node: TolerantNode) -> bool:
     """Whether the attribute `name` of an element defines a name, and does not refer to one."""
+    # A name of MJCF is one of its kind, and many attributes name each kind: to rename half of them would be wrong.
+    if document.schema.format == "mjcf":
+        return False
     if node.tag not in DEFINED or (node.tag == "model" and surroundings(document, node).in_state):
         return False
     row = document.schema.row(node)
@@ -224,6 +227,8 @@ def _is_misplaced(document: ModelText, node: TolerantNode) -> bool:
 
 def kind_at(document: ModelText, node: TolerantNode, attribute: str | None) -> ReferenceKind | None:
     """Return the kind of thing that an attribute refers to or, without one, the text of an element."""
+    if document.schema.format == "mjcf":
+        return None
     row = document.schema.row(node, attribute)
     if row is not None and row.fact.place is not None and row.fact.place != ".":
         return _kind_of_row(row)

@@ -7,6 +7,7 @@ from lsprotocol import types
 
 from twinform.diagnostics import Diagnostic, Span
 from twinform.diagnostics.rule_registry import RuleRegistryError, find_rule
+from twinform.ir import Format
 from twinform.lazy import lazy_pattern
 from twinform.passes.plugins.catalog import systems
 from twinform.passes.plugins.catalog_types import PluginKind
@@ -22,7 +23,6 @@ from twinform.server.schema import PREFIX, described, kind_of, parameter_of
 from twinform.server.session import Session
 from twinform.server.tolerant_tree import TolerantNode
 
-_OTHERS: dict[FormatName, str] = {"urdf": "SDF", "sdf": "URDF"}
 _LONGEST = 200
 
 
@@ -55,7 +55,7 @@ def text_of_row(row: MappingRow) -> str:
     lines = [text, *_describe_type(row)]
     goes, fates = destination(row)
     if goes or fates:
-        lines.append(f"In {_OTHERS[row.format]}: {', '.join(filter(None, (goes, fates)))}.")
+        lines.append(f"In {Format(row.format).counterpart.upper()}: {', '.join(filter(None, (goes, fates)))}.")
     return "\n\n".join(filter(None, lines))
 
 

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator
 from itertools import islice
 from pathlib import Path
 
+from twinform.compiler.input.root_names import MJCF, is_mjcf
 from twinform.compiler.resolve_uris import SearchPath
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Span
@@ -16,8 +17,8 @@ from twinform.server.tolerant_tree import TolerantNode
 
 _FIND = lazy_pattern(r"\$\(find\s+(?P<package>[\w.-]+)\)(?P<rest>.*)", re.DOTALL)
 _DIRNAME = lazy_pattern(r"\$\(dirname\)/?")
-ENDINGS = (".urdf", ".xacro", ".sdf", ".world", ".gazebo")
-"""The suffixes of files that are searched for includes."""
+ENDINGS = (".urdf", ".xacro", ".sdf", ".world", ".gazebo", *MJCF)
+"""The suffixes of files that are searched for includes; of those called `.xml` only MJCF is."""
 _MOST_FILES = 500
 # The most includes of one document that are followed, since one that leads nowhere is looked for in every folder.
 _MOST_INCLUDES = 2_000
@@ -73,6 +74,8 @@ def _find_includes(document: TextDocument) -> Iterator[DocumentInclude]:
     for node in document.tree.nodes:
         if node.tag in {"xacro:include", "include"} and "filename" in node.attributes:
             yield DocumentInclude(node, node.attributes["filename"].value, node.values["filename"])
+        elif node.tag == "include" and "file" in node.attributes:  # of MJCF
+            yield DocumentInclude(node, node.attributes["file"].value, node.values["file"])
         elif node.tag == "uri" and node.parent is not None and node.parent.tag == "include":
             span = document.tree.text_of(node)
             yield DocumentInclude(node.parent, span, span.of(document.text))
@@ -117,7 +120,7 @@ def files_below(folders: Iterable[Path], endings: tuple[str, ...], most: int = _
         Path(place, name)
         for place, names in islice(_folders_below(folders), _MOST_FOLDERS)
         for name in sorted(names)
-        if name.lower().endswith(endings)
+        if name.lower().endswith(endings) and (not name.lower().endswith(".xml") or is_mjcf(Path(place, name)))
     )
     yield from islice(found, most)
 

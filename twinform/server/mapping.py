@@ -14,8 +14,9 @@ from twinform.package_files import package_files
 from twinform.schemas import table
 from twinform.schemas.facts import Fact
 
-FormatName = Literal["urdf", "sdf"]
+FormatName = Literal["urdf", "sdf", "mjcf"]
 FORMATS: tuple[FormatName, ...] = ("urdf", "sdf")
+"""The formats whose rows have counterparts in each other."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,7 +68,7 @@ def _rows_below(format: FormatName, definition: str, fact: Fact, around: str) ->
 
 Chain = tuple[str, ...]
 """Fields of the IR from the outermost, each with its class, such as `("Joint.axis", "Axis.xyz")`."""
-_ROOTS: dict[FormatName, type[Node]] = {"urdf": Model, "sdf": Document}
+_ROOTS: dict[FormatName, type[Node]] = {"urdf": Model, "sdf": Document, "mjcf": Document}
 
 
 def field_of(row: MappingRow) -> str:
@@ -150,7 +151,7 @@ class Destination(NamedTuple):
 
 def destination(row: MappingRow) -> Destination:
     """Look up what expresses a row in the other format, in the table that `make generate` writes."""
-    goes, fates = _destinations()[row.format].get(row.path, ("", ""))
+    goes, fates = _destinations().get(row.format, {}).get(row.path, ("", ""))
     return Destination(goes, fates)
 
 

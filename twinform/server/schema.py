@@ -13,17 +13,24 @@ from twinform.passes.plugins.catalog import (
 )
 from twinform.passes.plugins.catalog_types import PluginKind, PluginParameter
 from twinform.schemas import Fact, Table, Version, parse_version, rows_by_name, table
-from twinform.server.mapping import FORMATS, FormatName, MappingRow
+from twinform.server.mapping import FormatName, MappingRow
 from twinform.server.tolerant_tree import TolerantNode, Tree
 
 __all__ = ["FormatName", "Schema", "SchemaPlace", "format_of", "inside", "is_of_xacro"]
 
-_ROOTS: dict[str, FormatName] = {"robot": "urdf", "sdf": "sdf", "gazebo": "sdf"}
+_ROOTS: dict[str, FormatName] = {
+    "robot": "urdf",
+    "sdf": "sdf",
+    "gazebo": "sdf",
+    "mujoco": "mjcf",
+    "mujocoinclude": "mjcf",
+}
 _ENDINGS: tuple[tuple[tuple[str, ...], FormatName], ...] = (
     ((".sdf", ".world", ".sdf.xacro", ".world.xacro", ".model"), "sdf"),
     ((".urdf", ".xacro", ".gazebo"), "urdf"),
+    ((".mjcf",), "mjcf"),
 )
-_LANGUAGES: dict[str, FormatName] = {"sdf": "sdf", "urdf": "urdf", "xacro": "urdf"}
+_LANGUAGES: dict[str, FormatName] = {"sdf": "sdf", "urdf": "urdf", "xacro": "urdf", "mjcf": "mjcf"}
 """The formats by the language ids of editors."""
 _IN_GAZEBO = ("link", "joint", "model", "collision", "visual", "world")
 """The definitions of SDF whose parts stand in `<gazebo>`, the likeliest first."""
@@ -161,7 +168,7 @@ def _extension(tag: str, around: SchemaPlace) -> SchemaPlace | None:
 def place_in_gazebo(definition: str) -> SchemaPlace:
     """Return the place of what stands in `<gazebo>` as in a definition of SDF, such as `link`."""
     facts = table("sdf")
-    return SchemaPlace(FORMATS[1], facts.newest, None, facts.definitions[definition], definition, "")
+    return SchemaPlace("sdf", facts.newest, None, facts.definitions[definition], definition, "")
 
 
 def _version(root: TolerantNode | None, format: FormatName) -> Version:

@@ -25,8 +25,9 @@ from twinform.lazy import lazy_pattern
 from twinform.text.tokens import IN_COMMENT
 
 _EXPECT = lazy_pattern(rb"<!--\s*expect:\s*(?P<severity>\w+)\s+(?P<rule>[\w-]+)\s*-->")
-_OTHER: dict[str, Literal["sdf", "urdf"]] = {".urdf": "sdf", ".sdf": "urdf"}
-_SUFFIXES = frozenset({*_OTHER, ".xacro"})
+_TARGETS: dict[str, Literal["sdf", "urdf"]] = {".urdf": "sdf", ".sdf": "urdf", ".mjcf": "sdf"}
+"""What a case is converted to by its ending."""
+_SUFFIXES = frozenset({*_TARGETS, ".xacro"})
 _PARTS = "parts"
 
 Finding = tuple[int, str, str]
@@ -78,11 +79,11 @@ class Case:
     @property
     def output_path(self) -> Path:
         """The file of the expected output, which may not exist."""
-        return self.path.with_suffix(f".expected.{_OTHER[self.path.suffix]}")
+        return self.path.with_suffix(f".expected.{_TARGETS[self.path.suffix]}")
 
     def output(self, sdf_version: str | None = None, *, to: Literal["sdf", "urdf"] | None = None) -> str:
-        """Convert the file, by default to the other format; return the text, or its errors if it is refused."""
-        to = to or _OTHER[self.path.suffix]
+        """Convert the file, by default to the counterpart of its format; return the text, or its errors."""
+        to = to or _TARGETS[self.path.suffix]
         try:
             return convert(self.path, to=to, sdf_version=sdf_version, strict=self.strict, comments=False).text
         except CompileError as error:

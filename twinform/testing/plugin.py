@@ -17,7 +17,7 @@ import pytest
 if TYPE_CHECKING:
     from twinform import Document
 
-SUFFIXES = frozenset({".urdf", ".sdf", ".world", ".xacro"})
+SUFFIXES = frozenset({".urdf", ".sdf", ".world", ".mjcf", ".xacro"})
 
 
 class ModelError(AssertionError):
@@ -87,7 +87,7 @@ class RoundTripItem(_ModelItem):
         paths: list[Path] = self.config.getini("twinform_paths")
         document = load(self.path, paths=paths)
         try:
-            assert_round_trip(document, via="sdf" if document.format == "urdf" else "urdf")
+            assert_round_trip(document, via=document.format.counterpart.value)
         except AssertionError as error:
             raise ModelError(f"{self.path}: {error}") from error
 

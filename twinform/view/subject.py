@@ -15,7 +15,7 @@ from twinform.compiler.scene import Scene, build_scene
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, Location
 from twinform.diagnostics.ledger import LedgerEntry
-from twinform.ir import Document, Format, Model
+from twinform.ir import Document, Model
 from twinform.passes import PassError
 from twinform.passes.shared.candidates import candidates
 
@@ -84,9 +84,6 @@ class ViewSubject:
         return found
 
 
-_OTHER: Mapping[Format, Format] = {Format.URDF: Format.SDF, Format.SDF: Format.URDF}
-
-
 def read_subject(source: Input, load_options: LoadOptions, *, name: str = "") -> tuple[ViewSubject | None, LoadResult]:
     """Read a file or document for the viewer; None if so much is wrong with it that there is nothing to show."""
     loaded = inspect(expand(read(source, load_options, name=name), load_options), load_options)
@@ -109,7 +106,7 @@ def _convert_each(document: Document) -> tuple[tuple[LedgerEntry, ...], tuple[st
     # 41,000 entries for 200 models instead of 0.4 s.
     for alone in _separate_models(document):
         try:
-            entries += convert(alone, to=_OTHER[document.format].value).ledger.entries
+            entries += convert(alone, to=document.format.counterpart.value).ledger.entries
         except (CompileError, PassError) as error:
             reasons.append(str(error).partition("\n")[0])
     return tuple(entries), tuple(reasons)

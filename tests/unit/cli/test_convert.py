@@ -167,7 +167,7 @@ def test_ir_is_dumped_after_a_pass(run: Run, folder: Path) -> None:
         (["a.urdf", "b.urdf"], "several inputs need -o DIRECTORY"),
         (["a.urdf", "b.urdf", "-o", "good.urdf"], "is a file"),
         (["a.urdf", "b.urdf", "-o", "out", "--ledger", "l.json"], "--ledger takes one input"),
-        (["good.urdf", "--to", "mjcf"], "mjcf"),
+        (["good.urdf", "--to", "usd"], "usd"),
         (["good.urdf", "--sdf-version", "9.9"], "SDF has no version '9.9'"),
         (["good.urdf", "--to", "urdf", "--sdf-version", "1.9"], "--sdf-version is for --to sdf"),
         (["good.urdf", "--passes", "chek-inertia"], "did you mean check-inertia?\n  chek-inertia\n  ^"),

@@ -31,6 +31,17 @@ from twinform.lazy import lazy_pattern
 _ABOUT_WHAT_IS_NOT_THERE = frozenset({rules.UNUSED_AXIS.name})
 # A fix with more edits is offered at the first of its findings only.
 _MANY_EDITS = 100
+_IN_MJCF = frozenset(
+    {
+        rules.DOCTYPE.name,
+        rules.NOT_WELL_FORMED.name,
+        rules.REPAIRED_XML.name,
+        rules.STRAY_TEXT.name,
+        rules.UNKNOWN_ATTRIBUTE.name,
+        rules.UNKNOWN_ELEMENT.name,
+    }
+)
+"""The rules with a fix that is right in MJCF: other fixers write elements and attributes of URDF and SDF."""
 _ATTRIBUTE = lazy_pattern(r"/@[^/\]']+$")
 
 
@@ -85,7 +96,7 @@ def _is_about_expanded(finding: Diagnostic, loaded: LoadResult) -> bool:
 def _offer(finding: Diagnostic, files: _Files) -> Diagnostic:
     """Return a finding with its fix, or with what stands against one."""
     file = files.about(finding) if finding.rule.fix else None
-    if file is None:
+    if file is None or (files.loaded.is_mjcf and finding.rule.name not in _IN_MJCF and finding.rule.name in catalog()):
         return finding
     about = finding
     if file.expanded:

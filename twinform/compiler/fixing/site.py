@@ -133,7 +133,7 @@ class FixableFile:
 
     @cached_property
     def format(self) -> str:
-        """`urdf` or `sdf`."""
+        """`urdf`, `sdf` or `mjcf`."""
         return ROOTS[str(self.root.tag)][0]
 
     @cached_property

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, NamedTuple, TypedDict
 from twinform.compiler.conversion_error import CompileError, MissingFileError
 from twinform.compiler.input.allowances import Allowances
 from twinform.compiler.input.expansion import Expansion
+from twinform.compiler.input.root_names import ENOUGH, root_name
 from twinform.compiler.input.size_limits import LARGEST, MOST_TAGS, USUAL_LIMITS, Limits, parse_size
 from twinform.compiler.output.source_comments import Comments
 from twinform.compiler.resolve_uris import SearchPath
@@ -229,6 +230,11 @@ class LoadResult:
         if self.tree is not None:
             return self.included + parts_of(self.tree)
         return count_parts(self.document) if self.document else 0
+
+    @property
+    def is_mjcf(self) -> bool:
+        """Whether the text is MJCF: the document of it is in the terms of SDF."""
+        return self.content is not None and root_name(self.content[:ENOUGH]) == b"mujoco"
 
     def sink(self, *, strict: bool) -> DiagnosticSink:
         """Make a sink with what was found so far, to which a conversion adds."""

@@ -60,6 +60,8 @@ def propose_roots(document: TextDocument) -> Iterator[Proposal]:
         yield Proposal("robot", f'robot name="$1"{space}>\n  $0\n</robot>', ITEM.Class)
     elif format_ == "sdf":
         yield Proposal("sdf", f'sdf version="${{1:1.11}}"{space}>\n  $0\n</sdf>', ITEM.Class)
+    elif format_ == "mjcf":
+        yield Proposal("mujoco", 'mujoco model="$1">\n  <worldbody>\n    $0\n  </worldbody>\n</mujoco>', ITEM.Class)
 
 
 def _elements_of(place: ElementPlace, holder: SchemaPlace, refused: frozenset[str] = frozenset()) -> Iterator[Proposal]:

@@ -3,6 +3,7 @@
 from collections.abc import Callable, Iterator, Mapping
 from functools import partial
 
+from twinform.compiler.input.root_names import MJCF
 from twinform.compiler.mistakes.control_checks import (
     HARDWARE,
     HARDWARE_INTERFACES,
@@ -116,6 +117,7 @@ _MAPS = frozenset({
 })  # fmt: skip
 _BY_ELEMENT: Mapping[tuple[str, str | None], Provider] = {
     ("xacro:include", "filename"): _files_of(XACROS),
+    ("include", "file"): _files_of(MJCF),
     ("material", None): _materials,
     **VALUES_OF_XACRO,
     **{(name, None): _files_of(IMAGES) for name in _MAPS},
