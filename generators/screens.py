@@ -25,6 +25,7 @@ FOLDER = ROOT / "out" / "screens"
 _WIDTHS = (390, 820, 1280)
 _HEIGHT = 900
 _SCHEMES: tuple[Literal["light", "dark"], ...] = ("light", "dark")
+_VIEW = "view"
 _MILLISECONDS = 3000
 """Until all is drawn, in a renderer without a graphics card."""
 _SITE = {
@@ -53,7 +54,7 @@ def main() -> int:
     errors: list[str] = []
     with _site() as site, _view() as view, longer_arm_report() as report, chromium() as browser:
         pages = {"readme": _readme().as_uri(), **{name: site + path for name, path in _SITE.items()}}
-        for name, address in {**pages, "view": view, "report": report.as_uri()}.items():
+        for name, address in {**pages, _VIEW: view, "report": report.as_uri()}.items():
             errors += _take(browser, name, address)
     print(f"{len(list(FOLDER.glob('*.png')))} screens in {FOLDER.relative_to(ROOT)}")
     for error in errors:
@@ -71,6 +72,9 @@ def _take(browser: "Browser", name: str, address: str) -> list[str]:
             page.on("pageerror", lambda error: errors.append(f"{name}: {error}"))
             page.goto(address)
             page.wait_for_timeout(_MILLISECONDS)
+            if name == _VIEW and scheme == "dark":  # a switch among the settings, whatever the browser prefers
+                page.get_by_label("Dark Mode").dispatch_event("click")
+                page.wait_for_timeout(_MILLISECONDS)
             page.screenshot(path=FOLDER / f"{name}_{width}_{scheme}.png")
             page.close()
     return errors
