@@ -60,6 +60,7 @@ EXAMPLES = {
     "Make a package for ROS 2": "twinform package robot.urdf -o robot_description --kind ros2",
     "Make one folder for both, with Fortress and Humble": "twinform package robot.urdf -o robot_description "
     "--kind both --gazebo fortress",
+    "Make a folder for MuJoCo, with a scene to load": "twinform package robot.urdf -o robot --kind mujoco",
     "List its files, and write nothing": "twinform package robot.urdf -o robot --kind gazebo-model --dry-run",
 }
 
@@ -79,7 +80,7 @@ EXAMPLES = {
     "--kind",
     type=click.Choice(KIND_NAMES),
     required=True,
-    help="A model folder for Gazebo, a package for ROS 2, or one folder that is both.",
+    help="A model folder for Gazebo, a package for ROS 2, one folder that is both, or a folder for MuJoCo.",
 )
 @click.option("--name", metavar="NAME", help="What the package is called; else as its folder.")
 @detail_options

@@ -533,3 +533,15 @@ def test_a_pointer_of_git_lfs_is_not_put_into_a_package(run: Run, tmp_path: Path
     assert done.exit_code == 1
     assert "base.STL' is a pointer of Git LFS and not the file itself [unpackaged-file]" in done.stderr
     assert "git lfs pull" in done.stderr
+
+
+def test_a_folder_for_mujoco_has_a_robot_a_scene_and_its_files(run: Run, tmp_path: Path) -> None:
+    done = run("package", arm(tmp_path), "-o", tmp_path / "out", "--kind", "mujoco")
+    assert done.exit_code == 0, done.stderr
+    files = _written(tmp_path / "out")
+    assert {path for path in files if not path.startswith("assets/")} == {".twinform-package", "model.xml", "scene.xml"}
+    named = set(re.findall(rb'file="(.*?)"', files["model.xml"]))
+    assert named
+    assert {name.decode() for name in named} <= {path for path in files if path.startswith("assets/")}
+    assert b'<include file="model.xml"/>' in files["scene.xml"]
+    assert "TODO" not in done.stderr

@@ -6,6 +6,7 @@ from typing import Literal, get_args
 
 from twinform.compiler.packaging.collecting import Collection
 from twinform.compiler.packaging.gazebo_models import build as build_gazebo_model
+from twinform.compiler.packaging.mujoco_models import build as build_mujoco
 from twinform.compiler.packaging.order import Built, Order
 from twinform.compiler.packaging.package import Content, Package
 from twinform.compiler.packaging.ros2_packages import build as build_ros2
@@ -15,7 +16,7 @@ from twinform.diagnostics.rules import PLACEHOLDER
 Builder = Callable[[Order, Collection], Built]
 """Builds a package from an order; the files of the model go into the collection, which several builders may share."""
 
-KINDS: Mapping[str, Builder] = {"gazebo-model": build_gazebo_model, "ros2": build_ros2}
+KINDS: Mapping[str, Builder] = {"gazebo-model": build_gazebo_model, "ros2": build_ros2, "mujoco": build_mujoco}
 
 
 def build(order: Order, kinds: tuple[str, ...]) -> Built:
@@ -58,17 +59,20 @@ def _report_missing_details(order: Order, kinds: Iterable[str]) -> tuple[Diagnos
     return tuple(sink.diagnostics)
 
 
-KindName = Literal["gazebo-model", "ros2"]
+KindName = Literal["gazebo-model", "ros2", "mujoco"]
 KIND_NAMES = (*get_args(KindName), "both")
 """The kinds of packages that can be requested."""
+_BOTH: tuple[KindName, ...] = ("gazebo-model", "ros2")
+"""The kinds that can be one folder."""
 
 REQUIRED: Mapping[str, tuple[str, ...]] = {
     "gazebo-model": ("description", "maintainer", "email"),
     "ros2": ("description", "maintainer", "email", "license"),
+    "mujoco": (),
 }
 """The details that a package of each kind needs."""
 
 
 def kinds_of(asked: str) -> tuple[str, ...]:
     """Return the kinds of packages that a request means."""
-    return get_args(KindName) if asked == "both" else (asked,)
+    return _BOTH if asked == "both" else (asked,)

@@ -103,7 +103,7 @@ class Order:
             CompileError: the model or a file of it has an error.
         """
         passes = Pipeline((*self.conversion.passes, CollectFiles.into(collection)))
-        prefix = f"package://{self.name}" if to == "urdf" else f"model://{self.folder}"
+        prefix = {"urdf": f"package://{self.name}", "sdf": f"model://{self.folder}"}.get(to)
         request = replace(self.conversion, to=to, sdf_version=sdf_version, mesh_prefix=prefix, passes=passes)
         made = run_conversion(
             request, self.source, self.load_options, name=self.source_name, instrumentation=instrumentation

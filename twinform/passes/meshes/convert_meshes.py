@@ -28,7 +28,8 @@ class ConvertMeshes(MeshPass):
     Changes the shapes of `shapes` on links whose name matches `links`, whose mesh is in a format that is not:
 
     1. with `to`, this one;
-    2. with `for`, one that this program reads; it is then written in the one that it reads best.
+    2. with `for`, one that this program reads; it is then written in the one that it reads best. So are STL files of
+       text, or with too many triangles, for MuJoCo.
 
     A COLLADA file names its unit, and the new file has meters. Which of its axes is up it says too, and neither Gazebo
     nor RViz nor PyBullet turns it: it stays as it is. In a glTF file it depends on the reader, see `gltf-up`.
@@ -104,7 +105,8 @@ class ConvertMeshes(MeshPass):
         """
         uri = (mesh.uri or "").strip()
         kept, kind, gltf_up = self._formats
-        if kind_of(PurePosixPath(uri)) in kept:
+        own = kind_of(PurePosixPath(uri))
+        if own in kept and not (own == "stl" and self._refuses_stl(uri, bench)):
             return mesh
         source = bench.sources.find(uri)
         _require_whole(source, uri, isinstance(shape, Visual) and not self.drop_appearance and kind != "stl")
@@ -124,6 +126,29 @@ class ConvertMeshes(MeshPass):
         reported.add(uri)
         return without_submesh(mesh).copy(uri=new)
 
+    def _refuses_stl(self, uri: str, bench: Workbench) -> bool:
+        """Whether the program reads STL, but not this file: one of text, or with too many triangles."""
+        most = consumers()[self.consumer].binary_stl_up_to if self.consumer else None
+        if most is None:
+            return False
+        try:
+            content = bench.sources.find(uri).content
+        except MeshError:
+            return False  # it is reported where the files of the model are looked for
+        number = triangles_of_binary_stl(content)
+        return number is None or number > most
+
+
+_STL_HEADER, _STL_TRIANGLE = 84, 50
+"""The bytes of a binary STL file before its triangles, and of each of them."""
+
+
+def triangles_of_binary_stl(content: bytes) -> int | None:
+    """Return the number of triangles of a binary STL file; None for text, which has no room for that many."""
+    number = int.from_bytes(content[80:_STL_HEADER], "little")
+    whole = len(content) >= _STL_HEADER + _STL_TRIANGLE * number
+    return number if len(content) >= _STL_HEADER and whole else None
+
 
 def _require_whole(source: MeshSource, uri: str, looks_count: bool) -> None:
     """Raise where files that a mesh names are missing and needed.
@@ -138,12 +163,16 @@ def _require_whole(source: MeshSource, uri: str, looks_count: bool) -> None:
 
 
 class Consumer(NamedTuple):
-    """A program: its `formats`, the best one first, the versions that were `seen`, and the axis that is up in glTF."""
+    """A program: its `formats`, the best one first, the versions that were `seen`, and the axis that is up in glTF.
+
+    One with `binary_stl_up_to` reads STL as binary alone, up to so many triangles.
+    """
 
     title: str
     seen: str
     formats: tuple[str, ...]
     gltf_up: str
+    binary_stl_up_to: int | None = None
 
     @property
     def written(self) -> MeshFormat:
@@ -156,6 +185,8 @@ def consumers() -> dict[str, Consumer]:
     """All programs by their names, from the table `data/consumers.toml`."""
     text = package_files("twinform.passes.meshes").joinpath("data", "consumers.toml").read_text(encoding="utf-8")
     return {
-        name: Consumer(row["title"], row["seen"], tuple(row["formats"]), row.get("gltf_up", "z"))
+        name: Consumer(
+            row["title"], row["seen"], tuple(row["formats"]), row.get("gltf_up", "z"), row.get("binary_stl_up_to")
+        )
         for name, row in tomllib.loads(text).items()
     }
