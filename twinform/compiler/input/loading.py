@@ -158,6 +158,7 @@ def _read_text(text: bytes, sink: DiagnosticSink, load_options: LoadOptions, all
         tree=tree,
         content=text,
         tree_size=size,
+        entries=tuple(sink.entries),
         allowed=tuple(sink.allowed),
         allowances=allowances,
         comments=comments,

@@ -140,6 +140,7 @@ MISSING_WORLD_SYSTEM = rule(
 )
 MISSPELLED_INTERFACE = rule("misspelled-interface", Severity.WARNING, fix=Safety.UNSAFE, group="control")
 MODEL_JOINT_END = rule("model-joint-end", Severity.INFO, group="portability")
+MJCF_ONLY = rule("mjcf-only", Severity.INFO, group="portability")
 MODEL_NOT_CHOSEN = rule("model-not-chosen", Severity.ERROR, group="references")
 MOVED_FRAME = rule("moved-frame", Severity.INFO, group="portability")
 MOVING_PLANE = rule("moving-plane", Severity.WARNING, fix=Safety.UNSAFE, group="physics")

@@ -1,19 +1,274 @@
-"""From canonical MJCF to a document in the terms of SDF."""
+"""From canonical MJCF to a document in the terms of SDF.
 
-from twinform.diagnostics import Source
-from twinform.ir import Document, Format, Link, Model
+A file with nothing but one tree of bodies is a model, as are robots in libraries; lights and cameras may stand beside
+it. Any other file is a world: it has shapes that belong to no body, such as a floor, or several trees. Each tree of a
+world is a model of its own, and the shapes of the world itself are a static model. The only tree of a file has the name
+of the file, and of several each has that of its first body.
+"""
+
+from collections.abc import Iterable
+from pathlib import Path
+
+from twinform.compiler.input.load_options import LoadOptions
+from twinform.compiler.input.mjcf.assets import AssetTable
+from twinform.compiler.input.mjcf.contact_masks import ContactMasks, touches_itself
+from twinform.compiler.input.mjcf.geom_solids import GeomSolids
+from twinform.compiler.input.mjcf.lower_actuators import efforts
+from twinform.compiler.input.mjcf.lower_bodies import TreeLowering, TreeParts
+from twinform.compiler.input.mjcf.lower_equalities import followers, lower_loop
+from twinform.compiler.input.mjcf.lower_geoms import GeomLowering
+from twinform.compiler.input.mjcf.lower_inertials import body_inertia, scale_of
+from twinform.compiler.input.mjcf.lower_lights import lower_light
+from twinform.compiler.input.mjcf.lower_option import lower_option
+from twinform.compiler.input.mjcf.lower_sensors import SiteSensor, by_site, lower_sensor
+from twinform.compiler.input.mjcf.names import safe_name
+from twinform.compiler.input.mjcf.pieces import Piece, pose_of
+from twinform.compiler.input.mjcf.remainders import MADE_NAME, RemainderKeeper, in_sections, with_rest
+from twinform.compiler.input.mjcf.sections import Owners, Sections
+from twinform.compiler.input.mjcf.settings import MassSettings
+from twinform.compiler.resolve_uris import LocalAssets
+from twinform.ir import Document, Element, Format, Frame, Light, Link, Model, Opaque, Sensor, World
+from twinform.passes.carriers.annotations import annotation, with_annotation
+from twinform.passes.legalise.changed_names import NAME
+from twinform.passes.legalise.to_sdf.name_shapes import UNNAMED
+from twinform.passes.shared.mesh_solids import Meshes
+from twinform.passes.shared.nodes import reserve_name
 from twinform.schemas import DEFAULT_SDF_VERSION, Context, XmlElement
 
+WORLDBODY = "worldbody"
+"""The name of the static model with the shapes of the world itself, and of its link."""
+_MODEL = "model"
+"""The name of a model in a file that has none."""
 
-def lower(root: XmlElement, context: Context) -> Document:
+
+def lower(root: XmlElement, context: Context, load_options: LoadOptions) -> Document:
     """Build the document of a canonical tree."""
-    source = Source(context.file, root.sourceline or 0, None, "mujoco", None)
-    links = [
-        Link.unchecked(
-            name=body.get("name") or f"body_{place}",
-            source=Source(context.file, body.sourceline or 0, source, "body", body.get("name")),
+    return FileLowering(Piece(root, context.file), context, load_options).document()
+
+
+class FileLowering:
+    """Lowers one file; what is left of its sections goes to the model that it is about, or to the world."""
+
+    def __init__(self, root: Piece, context: Context, load_options: LoadOptions) -> None:
+        self.root = root
+        self.sections = Sections(root)
+        self.keeper = RemainderKeeper(context.sink)
+        self.trees = [each for each in self.sections.inside(WORLDBODY) if each.tag == "body"]
+        self.owners = Owners(self.trees, self.sections)
+        self.assets = AssetTable(self.sections.of("asset"))
+        self.geoms = GeomLowering(
+            self.assets, ContactMasks.of(each for each in root.walk() if each.tag == "geom"), self.keeper
         )
-        for place, body in enumerate(root.iter("body"), 1)
-    ]
-    model = Model.unchecked(name=root.get("model") or "model", links=tuple(links), source=source)
-    return Document.unchecked(format=Format.SDF, version=DEFAULT_SDF_VERSION, models=(model,), source=source)
+        settings = MassSettings.of(self.sections.of("compiler"))
+        meshes = Meshes(LocalAssets(load_options.search, Path(context.file)))
+        solids = GeomSolids(self.assets, meshes, context.sink)
+        bodies = [each for tree in self.trees for each in tree.walk() if each.tag == "body"]
+        self.inertias = {each: body_inertia(each, settings, solids) for each in bodies}
+        self.scale = scale_of(settings, [each.solid.mass for each in self.inertias.values()])
+        self.followers = followers(self.sections.inside("equality"))
+        self.efforts = efforts(self.sections.inside("actuator"))
+
+    @property
+    def is_world(self) -> bool:
+        """Whether the file is a world and not a model."""
+        return len(self.trees) != 1 or any(each.tag == "geom" for each in self.sections.inside(WORLDBODY))
+
+    def document(self) -> Document:
+        """Build the document."""
+        name = self.root.take("model")
+        alone = len(self.trees) == 1
+        taken = {WORLDBODY}
+        models = [
+            self._model(number, tree, name if alone else tree.name, taken) for number, tree in enumerate(self.trees)
+        ]
+        source = self.root.source
+        if not self.is_world:
+            (model,) = models
+            model = with_rest(model, in_sections(self._left(self._scene())))
+            return Document.unchecked(
+                format=Format.SDF, version=DEFAULT_SDF_VERSION, models=(model,), source=source
+            )
+        world = self._world(name, models)
+        return Document.unchecked(format=Format.SDF, version=DEFAULT_SDF_VERSION, worlds=(world,), source=source)
+
+    def _model(self, number: int, tree: Piece, name: str | None, taken: set[str]) -> Model:
+        lowering = TreeLowering(
+            tree, self.geoms, self.keeper, self.inertias, self.scale, self.followers, self.efforts
+        )
+        parts = lowering.lower()
+        self._close_loops(number, lowering, parts)
+        self._add_sensors(parts)
+        given = reserve_name(safe_name(name or _MODEL), taken)
+        is_static = lowering.is_static and self.is_world
+        model = Model.unchecked(
+            name=given,
+            pose=pose_of(tree.transform(), source=tree.source),
+            static=True if is_static else None,
+            self_collide=None if is_static else touches_itself(parts.masks),
+            links=tuple(parts.links),
+            joints=tuple(parts.joints),
+            frames=tuple(parts.frames),
+            opaque=(*_name_mark(name, given), *_unnamed(parts.made_names)),
+            source=tree.source,
+        )
+        return with_rest(model, in_sections(self._left_of(number)))
+
+    def _close_loops(self, number: int, lowering: TreeLowering, parts: TreeParts) -> None:
+        for piece in self.sections.inside("equality"):
+            if piece.is_settled or self.owners.of(piece) != number:
+                continue
+            unnamed = f"{piece.peek('body1')}_{piece.peek('body2')}_{piece.tag}"
+            links = parts.links_of
+            if lowering.mocap & {piece.peek("body1"), piece.peek("body2")}:
+                continue
+            name = piece.name or unnamed
+            joint = lower_loop(piece, name, links, self.keeper)
+            if joint is not None:
+                made = lowering.names.make(safe_name(name))
+                marks = _name_mark(piece.name, made)
+                parts.joints.append(joint.copy(name=made, opaque=(*marks, *joint.opaque)))
+
+    def _add_sensors(self, parts: TreeParts) -> None:
+        """Put the sensors at the sites of a model on its links and joints."""
+        for found in by_site(self.sections.inside("sensor")):
+            if found.site not in parts.sites or any(each.is_settled for each in found.pieces):
+                continue
+            link, frame = parts.sites[found.site]
+            self._add_sensor(found, link, frame, parts)
+
+    def _add_sensor(self, found: SiteSensor, link: str, frame: str, parts: TreeParts) -> None:
+        index = next(index for index, each in enumerate(parts.links) if each.name == link)
+        name = f"{safe_name(found.site)}_{found.type}"
+        if found.type != "force_torque":
+            sensor = lower_sensor(found, name, frame, parts.links[index], self.keeper)
+            if sensor is not None:
+                parts.links[index] = _with_sensor(parts.links[index], sensor)
+            return
+        above = next((index for index, each in enumerate(parts.joints) if each.child == link), None)
+        if above is not None:
+            sensor = lower_sensor(found, name, frame, parts.links[index], self.keeper)
+            joint = parts.joints[above]
+            parts.joints[above] = joint.copy(sensors=(*joint.sensors, *((sensor,) if sensor else ())))
+
+    def _left_of(self, number: int) -> dict[str, list[Element]]:
+        """Return what no node says of the sections and is about one tree alone."""
+        left: dict[str, list[Element]] = {}
+        for section in self.sections.all:
+            if section.tag in {WORLDBODY, "asset", "compiler", "option", "default"}:
+                continue
+            for piece in section.inside:
+                if self.owners.of(piece) != number:
+                    continue
+                if piece.is_settled:
+                    continue
+                left.setdefault(section.tag, []).append(self._rest(piece, section.tag))
+        return left
+
+    def _rest(self, piece: Piece, section: str) -> Element:
+        """Return what is left of an element of a section: all of it, or the attributes that nobody took."""
+        return self.keeper.rest_element(piece) if piece.taken else self.keeper.whole(piece, section)
+
+    def _left(self, scene: list[Element]) -> dict[str, list[Element]]:
+        """Return what no node says of all sections, and is about no tree or several."""
+        left: dict[str, list[Element]] = {WORLDBODY: scene} if scene else {}
+        for section in self.sections.all:
+            if section.tag == WORLDBODY:
+                section.is_settled = True
+                continue
+            own = self.keeper.rest_element(section)
+            if own.attributes:
+                left.setdefault(section.tag, []).append(own)
+            for piece in section.inside:
+                element = self._left_of_piece(piece, section.tag)
+                if element is not None:
+                    left.setdefault(section.tag, []).append(element)
+        attributes = self.keeper.rest_element(self.root).attributes
+        if attributes:
+            left["mujoco"] = [Element.unchecked(name="mujoco", attributes=attributes)]
+        return left
+
+    def _left_of_piece(self, piece: Piece, section: str) -> Element | None:
+        if piece.is_settled:
+            return None
+        if section == "asset" and piece.taken:
+            element = self.keeper.rest_element(piece)
+            return element if len(element.attributes) > (piece.name is not None) else None
+        return self._rest(piece, section)
+
+    def _scene(self) -> list[Element]:
+        """Return what a model has no place for: lights, cameras and sites of the world around it."""
+        return [
+            self.keeper.whole(each, why="a model has no place for what is around it")
+            for each in self.sections.inside(WORLDBODY)
+            if each.tag != "body"
+        ]
+
+    def _world(self, name: str | None, models: list[Model]) -> World:
+        settings = lower_option(self.sections.of("option"))
+        lights: list[Light] = []
+        for number, piece in enumerate(each for each in self.sections.inside(WORLDBODY) if each.tag == "light"):
+            light = lower_light(piece, piece.name or f"light{number or ''}", self.keeper)
+            if light is not None:
+                lights.append(light if piece.name else with_annotation(light, MADE_NAME, light.name))
+        frames = tuple(self._frames())
+        ground = self._ground()
+        left = [
+            self.keeper.whole(each, why="a world of SDF has no place for it")
+            for each in self.sections.inside(WORLDBODY)
+            if each.tag != "body" and not each.is_settled
+        ]
+        given = safe_name(name or _MODEL)
+        rest = in_sections(self._left(left))
+        return World.unchecked(
+            name=given,
+            gravity=settings.gravity,
+            models=(*ground, *models),
+            lights=tuple(lights),
+            frames=frames,
+            opaque=(*_name_mark(name, given), *settings.opaque, *rest),
+            source=self.root.source,
+        )
+
+    def _frames(self) -> Iterable[Frame]:
+        for site in self.sections.inside(WORLDBODY):
+            if site.tag == "site" and site.name is not None:
+                name = site.take("name") or ""
+                pose = pose_of(site.transform(), source=site.source)
+                rest = self.keeper.rest(site, is_marked=True)
+                given = safe_name(name)
+                marks = _name_mark(name, given)
+                yield Frame.unchecked(name=given, pose=pose, opaque=(*marks, *rest), source=site.source)
+
+    def _ground(self) -> tuple[Model, ...]:
+        """Return the static model with the shapes of the world itself, if it has any."""
+        bodies = [each for each in self.sections.of(WORLDBODY) if each.find("geom") is not None]
+        if not bodies:
+            return ()
+        shapes = [self.geoms.lower(each, WORLDBODY) for each in bodies]
+        link = Link.unchecked(
+            name=WORLDBODY,
+            visuals=tuple(visual for each in shapes for visual in each.visuals),
+            collisions=tuple(collision for each in shapes for collision in each.collisions),
+            opaque=tuple(part for each in shapes for part in each.rest),
+            source=bodies[0].source,
+        )
+        names = [name for each in shapes for name in each.made_names]
+        marks = (annotation(MADE_NAME, WORLDBODY), *_unnamed(names))
+        return (
+            Model.unchecked(name=WORLDBODY, static=True, links=(link,), opaque=marks, source=bodies[0].source),
+        )
+
+
+def _with_sensor(link: Link, sensor: Sensor) -> Link:
+    return link.copy(sensors=(*link.sensors, sensor))
+
+
+def _name_mark(name: str | None, given: str) -> tuple[Opaque, ...]:
+    """Return the annotation of a name that MJCF does not have, or has otherwise."""
+    if name is None:
+        return (annotation(MADE_NAME, given),)
+    return () if name == given else (annotation(NAME, name, {"instead_of": given}),)
+
+
+def _unnamed(names: list[str]) -> tuple[Opaque, ...]:
+    return (annotation(UNNAMED, "\n".join(names)),) if names else ()

@@ -1,0 +1,238 @@
+"""Bodies of one tree as the model that they are: links, joints and frames.
+
+A body is a link in the frame of the link around it. Where it has several joints, links without mass stand between them,
+all in the place of the body, and the joints keep their names and their order: the first is nearest to the parent. A
+body without a joint is fixed to its parent, or to the world.
+"""
+
+from collections.abc import Iterator, Mapping
+from typing import NamedTuple
+
+from twinform.compiler.input.mjcf.contact_masks import Bits
+from twinform.compiler.input.mjcf.lower_equalities import JointFollowing, mimic_of
+from twinform.compiler.input.mjcf.lower_geoms import GeomLowering
+from twinform.compiler.input.mjcf.lower_inertials import WrittenInertia, inertial_of
+from twinform.compiler.input.mjcf.lower_joints import FREE, joint_type, lower_joint
+from twinform.compiler.input.mjcf.lower_lights import lower_camera, lower_light
+from twinform.compiler.input.mjcf.names import NameScope
+from twinform.compiler.input.mjcf.pieces import Piece, pose_of
+from twinform.compiler.input.mjcf.remainders import BODY_CHAIN, MADE_NAME, RemainderKeeper, holder
+from twinform.ir import Element, Frame, Joint, Light, Link, Mimic, Opaque, Pose, Sensor
+from twinform.ir.frames import WORLD
+from twinform.passes.carriers.annotations import annotation, with_annotation
+from twinform.passes.carriers.token_mass import TOKEN
+
+JOINTS = ("joint", "freejoint")
+
+
+class TreeParts(NamedTuple):
+    """What the bodies of a tree are in SDF.
+
+    `made_names` are those of shapes without a name, and `masks` those of the geoms of each link. `links_of` has the
+    names of links by those of bodies, `sites` the link and the frame of each named site.
+    """
+
+    links: list[Link]
+    joints: list[Joint]
+    frames: list[Frame]
+    made_names: list[str]
+    masks: list[list[Bits]]
+    links_of: dict[str, str]
+    sites: dict[str, tuple[str, str]]
+
+
+class _Placed(NamedTuple):
+    """A body and the link that it stands on; None for the world."""
+
+    body: Piece
+    parent: str | None
+
+
+class TreeLowering:
+    """Lowers the bodies of one tree, which become one model.
+
+    `inertias` has the mass of each body, `followers` the equalities that are mimics by the names of their followers,
+    and `efforts` what actuators do to joints.
+    """
+
+    def __init__(
+        self,
+        root: Piece,
+        geoms: GeomLowering,
+        keeper: RemainderKeeper,
+        inertias: Mapping[Piece, WrittenInertia],
+        scale: float,
+        followers: Mapping[str, tuple[Piece, JointFollowing]],
+        efforts: Mapping[str, float],
+    ) -> None:
+        self.root = root
+        self.names = NameScope()
+        self._geoms = geoms
+        self._keeper = keeper
+        self._inertias = inertias
+        self._scale = scale
+        self._followers = followers
+        self._efforts = efforts
+        self._joint_names: dict[str, str] = {}
+        self.parts = TreeParts([], [], [], [], [], {}, {})
+
+    @property
+    def is_static(self) -> bool:
+        """Whether nothing in the tree moves."""
+        return not any(each.tag in JOINTS for each in self.root.walk())
+
+    @property
+    def is_free(self) -> bool:
+        """Whether its root floats."""
+        return any(joint_type(each) == FREE for each in self.root.all_of(*JOINTS))
+
+    @property
+    def mocap(self) -> frozenset[str | None]:
+        """The names of bodies that only a program moves: what holds another one to them is no joint."""
+        return frozenset(each.name for each in self.root.walk() if each.peek("mocap") == "true")
+
+    def lower(self) -> TreeParts:
+        """Build the links, joints and frames of all bodies, parents first."""
+        bodies = [each for each in self.root.walk() if each.tag == "body"]
+        self._name(bodies)
+        waiting = [_Placed(self.root, None)]
+        while waiting:
+            here = waiting.pop()
+            link = self._body(here)
+            waiting += [_Placed(each, link) for each in reversed(tuple(here.body.all_of("body")))]
+        return self.parts
+
+    def _name(self, bodies: list[Piece]) -> None:
+        """Give names to links first, then to joints, then to frames."""
+        for body in sorted(bodies, key=lambda each: each.name is None):
+            name = self.names.give(body, f"{self.root.name or 'body'}_body")
+            if body.name is not None:
+                self.parts.links_of[body.name] = name
+        for body in bodies:
+            for joint in body.all_of(*JOINTS):
+                if joint_type(joint) != FREE:
+                    name = self.names.give(joint, f"{self.names.give(body, '')}_joint")
+                    if joint.name is not None:
+                        self._joint_names[joint.name] = name
+        for body in bodies:
+            link = self.names.give(body, "")
+            for site in body.all_of("site"):
+                if site.name is not None:
+                    self.parts.sites[site.name] = (link, self.names.give(site, ""))
+
+    def _body(self, here: _Placed) -> str:
+        """Build the link of a body and what holds it, and return the name of the link."""
+        body = here.body
+        body.is_settled = True
+        name = self.names.give(body, "")
+        at = body.transform()
+        is_root = here.parent is None
+        pose = None if is_root else pose_of(at, here.parent, body.source)
+        inertial = inertial_of(self._inertias[body], self._scale, self._keeper)
+        shapes = self._geoms.lower(body, name)
+        self.parts.made_names.extend(shapes.made_names)
+        self.parts.masks.append([Bits.of(geom) for geom in body.all_of("geom")])
+        gravity = None
+        if body.peek_numbers("gravcomp") == (1.0,):
+            body.take("gravcomp")
+            gravity = False
+        joints = [each for each in body.all_of(*JOINTS) if joint_type(each) != FREE]
+        between = self._between(joints, name, pose)
+        rest = (*self._keeper.rest(body), *shapes.rest, *self._free_joint(body))
+        link = Link.unchecked(
+            name=name,
+            pose=pose,
+            gravity=gravity,
+            kinematic=True if body.peek("mocap") == "true" else None,
+            inertial=inertial,
+            visuals=shapes.visuals,
+            collisions=shapes.collisions,
+            sensors=tuple(self._cameras(body, name)),
+            lights=tuple(self._lights(body, name)),
+            opaque=rest,
+            source=body.source,
+        )
+        link = link.copy(opaque=(*link.opaque, *self._unread(body)))
+        self.parts.links.append(self.names.marked(link, body))
+        self.parts.links.extend(between)
+        self._hold(here, name, joints, [each.name for each in between])
+        self._frames(body, name)
+        return name
+
+    def _between(self, joints: list[Piece], name: str, pose: Pose | None) -> list[Link]:
+        """Return the links between the joints of a body, all in its place."""
+        made = [self.names.make(f"{self.names.give(each, '')}_link") for each in joints[:-1]]
+        mark = annotation(BODY_CHAIN, attributes={"body": name})
+        return [
+            Link.unchecked(name=each, pose=pose, inertial=TOKEN, opaque=(mark,), source=joint.source)
+            for each, joint in zip(made, joints[:-1], strict=True)
+        ]
+
+    def _hold(self, here: _Placed, name: str, joints: list[Piece], between: list[str]) -> None:
+        """Build the joints of a body, or the fixed one where it has none and is no floating or static root."""
+        if not joints:
+            if here.parent is not None or not (self.is_free or self.is_static):
+                self.parts.joints.append(self._fixed(here, name))
+            return
+        ends = [here.parent or WORLD, *between, name]
+        for joint, parent, child in zip(joints, ends[:-1], ends[1:], strict=True):
+            given = self.names.give(joint, "")
+            effort = self._efforts.get(joint.name or "")
+            made = lower_joint(joint, given, parent, child, self._mimic(joint), effort, self._keeper)
+            self.parts.joints.append(self.names.marked(made, joint))
+
+    def _fixed(self, here: _Placed, name: str) -> Joint:
+        made = self.names.make(f"{name}_fixed_joint")
+        joint = Joint.unchecked(
+            name=made, type="fixed", parent=here.parent or WORLD, child=name, source=here.body.source
+        )
+        return with_annotation(joint, MADE_NAME, made)
+
+    def _mimic(self, joint: Piece) -> Mimic | None:
+        """Return what a joint follows, if both are in this tree and both slide or turn."""
+        piece, said = self._followers.get(joint.name or "", (None, None))
+        if piece is None or said is None or said.leader not in self._joint_names or joint_type(joint) == "ball":
+            return None
+        return mimic_of(piece, said, self._joint_names[said.leader])
+
+    def _free_joint(self, body: Piece) -> tuple[Opaque, ...]:
+        """Return what is left of the free joint of a root, which SDF says by having no joint."""
+        found = [each for each in body.all_of(*JOINTS) if joint_type(each) == FREE]
+        return tuple(part for each in found for part in self._rest_of_free(each))
+
+    def _rest_of_free(self, piece: Piece) -> tuple[Opaque, ...]:
+        if piece.tag == "joint":
+            piece.take("type")
+        return self._keeper.rest(piece)
+
+    def _frames(self, body: Piece, link: str) -> None:
+        for site in body.all_of("site"):
+            if site.name is None:
+                continue
+            pose = pose_of(site.transform(), source=site.source)
+            rest = self._keeper.rest(site, is_marked=True)
+            frame = Frame.unchecked(
+                name=self.names.give(site, ""), attached_to=link, pose=pose, opaque=rest, source=site.source
+            )
+            self.parts.frames.append(self.names.marked(frame, site))
+
+    def _cameras(self, body: Piece, link: str) -> Iterator[Sensor]:
+        for number, piece in enumerate(body.all_of("camera")):
+            made = lower_camera(piece, piece.name or f"{link}_camera{number or ''}", self._keeper)
+            if made is not None:
+                yield made if piece.name else with_annotation(made, MADE_NAME, made.name)
+
+    def _lights(self, body: Piece, link: str) -> Iterator[Light]:
+        for number, piece in enumerate(body.all_of("light")):
+            made = lower_light(piece, piece.name or f"{link}_light{number or ''}", self._keeper)
+            if made is not None:
+                yield made if piece.name else with_annotation(made, MADE_NAME, made.name)
+
+    def _unread(self, body: Piece) -> tuple[Opaque, ...]:
+        """Return what stands in a body and is no part of SDF: unnamed sites, cameras that follow, plugins, cables."""
+        left: list[Element] = []
+        for each in body.inside:
+            if each.tag in {"body", *JOINTS} or each.is_settled or (each.tag == "site" and each.name):
+                continue
+            left.append(self._keeper.whole(each))
+        return (holder(*left),) if left else ()

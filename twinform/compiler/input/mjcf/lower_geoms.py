@@ -1,0 +1,136 @@
+"""Geoms of a body as collisions and visuals of a link.
+
+A geom whose `contype` and `conaffinity` are both zero touches nothing and is a visual. Any other one is a collision,
+and a visual of the same name too if it is shown: in one of the groups 0 to 2, which MuJoCo's viewer shows, and not
+wholly transparent. In a body that has visuals of its own in group 1 or 2, what touches in group 0 is not shown: so
+MuJoCo sorts the shapes of a URDF, and many models do.
+"""
+
+from typing import NamedTuple
+
+from twinform.compiler.input.mjcf.assets import AssetTable
+from twinform.compiler.input.mjcf.contact_masks import Bits, ContactMasks
+from twinform.compiler.input.mjcf.lower_materials import is_invisible, lower_material
+from twinform.compiler.input.mjcf.lower_shapes import PlacedShape, lower_shape
+from twinform.compiler.input.mjcf.pieces import Piece, pose_of
+from twinform.compiler.input.mjcf.remainders import SAME_GEOM, RemainderKeeper, holder
+from twinform.ir import Collision, Element, Geometry, Opaque, Pose, Surface, Visual
+from twinform.passes.carriers.annotations import annotation
+from twinform.passes.shared.nodes import reserve_name
+
+_SHOWN = 3
+"""Groups from this one on are not shown by MuJoCo's viewer."""
+_USUAL_FRICTION = (1.0, 0.005, 0.0001)
+
+
+class LinkShapes(NamedTuple):
+    """The shapes of a link, what of its geoms has no shape in SDF, and the names that were made for shapes."""
+
+    collisions: tuple[Collision, ...] = ()
+    visuals: tuple[Visual, ...] = ()
+    rest: tuple[Opaque, ...] = ()
+    made_names: tuple[str, ...] = ()
+
+
+class GeomLowering(NamedTuple):
+    """What is needed to lower the geoms of a file."""
+
+    assets: AssetTable
+    masks: ContactMasks
+    keeper: RemainderKeeper
+
+    def lower(self, body: Piece, link: str) -> LinkShapes:
+        """Build the shapes of a body; the masses of its geoms are taken by now."""
+        geoms = tuple(body.all_of("geom"))
+        hides = any(not Bits.of(each).touches and _group(each) in {1, 2} for each in geoms)
+        names = {each.name for each in geoms if each.name}
+        made_names: list[str] = []
+        collisions: list[Collision] = []
+        visuals: list[Visual] = []
+        rest: list[Element] = []
+        for geom in geoms:
+            placed = lower_shape(geom, self.assets)
+            if placed is None:
+                why = f"SDF has no such shape ({geom.peek('type') or 'sphere'} without a file or size)"
+                rest.append(self.keeper.whole(geom, why=why))
+                continue
+            touches = Bits.of(geom).touches
+            if geom.name is None:
+                name = reserve_name(f"{link}_{'collision' if touches else 'visual'}", names)
+                made_names.append(name)
+            else:
+                name = geom.take("name") or ""
+            is_shown = not touches or self._is_shown(geom, hides=hides)
+            pose = pose_of(geom.transform().compose(placed.at), source=geom.source)
+            material = lower_material(geom, self.assets) if is_shown else None
+            if not touches:
+                geom.take("contype")
+                geom.take("conaffinity")
+                visuals.append(
+                    Visual.unchecked(
+                        name=name,
+                        pose=pose,
+                        geometry=_geometry(placed, geom),
+                        material=material,
+                        opaque=self._rest(geom),
+                        source=geom.source,
+                    )
+                )
+                continue
+            collisions.append(self._collision(geom, name, pose, placed))
+            if is_shown:
+                visuals.append(
+                    Visual.unchecked(
+                        name=name,
+                        pose=pose,
+                        geometry=_geometry(placed, geom),
+                        material=material,
+                        opaque=(annotation(SAME_GEOM),),
+                        source=geom.source,
+                    )
+                )
+        kept = (holder(*rest),) if rest else ()
+        return LinkShapes(tuple(collisions), tuple(visuals), kept, tuple(made_names))
+
+    def _is_shown(self, geom: Piece, *, hides: bool) -> bool:
+        group = _group(geom)
+        if group >= _SHOWN or (hides and group == 0):
+            return False
+        return not is_invisible(geom, self.assets)
+
+    def _collision(self, geom: Piece, name: str, pose: Pose | None, placed: PlacedShape) -> Collision:
+        surface = _surface(geom, self.masks.take(geom))
+        return Collision.unchecked(
+            name=name,
+            pose=pose,
+            geometry=_geometry(placed, geom),
+            surface=surface,
+            opaque=self._rest(geom),
+            source=geom.source,
+        )
+
+    def _rest(self, geom: Piece) -> tuple[Opaque, ...]:
+        if geom.peek("group") == "0":
+            geom.take("group")
+        return self.keeper.rest(geom)
+
+
+def _group(geom: Piece) -> int:
+    return int(geom.peek("group") or "0")
+
+
+def _geometry(placed: PlacedShape, geom: Piece) -> Geometry:
+    return Geometry.unchecked(shape=placed.shape, source=geom.source)
+
+
+def _surface(geom: Piece, mask: int | None) -> Surface | None:
+    """Return the sliding friction and the mask; torsional and rolling friction stay with the geom."""
+    friction = geom.numbers("friction")
+    if friction[1:] != _USUAL_FRICTION[1 : len(friction)]:
+        geom.leave("friction")
+    mu = friction[0] if friction and friction[0] != _USUAL_FRICTION[0] else None
+    if mu is None and mask is None:
+        return None
+    element = Element.unchecked(name="collide_bitmask", text=str(mask))
+    opaque = () if mask is None else (Opaque.unchecked(at="contact", element=element),)
+    return Surface.unchecked(mu=mu, mu2=mu, opaque=opaque, source=geom.source)

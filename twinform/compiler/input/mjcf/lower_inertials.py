@@ -1,0 +1,126 @@
+"""Mass, center of mass and inertia of bodies: as they are written, or as MuJoCo computes them from geoms."""
+
+from collections.abc import Callable, Sequence
+from itertools import combinations
+from typing import NamedTuple
+
+from twinform.compiler.input.mjcf.pieces import Numbers, Piece, pose_of
+from twinform.compiler.input.mjcf.remainders import RemainderKeeper
+from twinform.compiler.input.mjcf.settings import MassSettings
+from twinform.diagnostics import rules
+from twinform.ir import Inertia, Inertial
+from twinform.ir.solids import (
+    ELEMENTS,
+    Solid,
+    Symmetric,
+    combined,
+    placed,
+    principal_axes,
+    turned,
+    with_mass,
+)
+from twinform.ir.transform import Matrix3, Transform
+from twinform.passes.carriers.annotations import with_annotation
+from twinform.passes.carriers.token_mass import TOKEN
+from twinform.passes.legalise.to_sdf.root_masses import UNSAID
+
+DENSITY = 1000.0
+"""In kg/m^3, of a geom that says nothing about its mass."""
+LEAST = 1e-15
+"""In kg or kg m^2: what is less counts as nothing in MuJoCo."""
+
+SolidOf = Callable[[Piece, float], Solid | None]
+"""Fills the shape of a geom, in its own frame, with a density in kg/m^3; None for a shape without an inside."""
+
+
+class WrittenInertia(NamedTuple):
+    """A mass with its inertia in the frame that the file has for it.
+
+    `is_written` is whether the file has these numbers, so that they need not be written in the frame of the body.
+    """
+
+    solid: Solid
+    frame: Transform
+    is_written: bool
+    piece: Piece
+
+
+def body_inertia(body: Piece, settings: MassSettings, solid_of: SolidOf) -> WrittenInertia:
+    """Return the mass of a body before all masses are scaled, and take what it comes from."""
+    written = body.find("inertial")
+    if written is not None and settings.from_geoms != "true":
+        found = _written(written)
+    else:
+        solid = combined([each for each in _solids(body, settings, solid_of) if each.mass > LEAST])
+        found = WrittenInertia(solid, Transform(), is_written=False, piece=body)
+    return found._replace(solid=_corrected(found.solid, settings))
+
+
+def _written(piece: Piece) -> WrittenInertia:
+    piece.is_settled = True
+    at = piece.transform()
+    mass = piece.number("mass") or 0.0
+    full, diagonal = piece.numbers("fullinertia"), piece.numbers("diaginertia")
+    xx, yy, zz, xy, xz, yz = full or (*diagonal, *[0.0] * (6 - len(diagonal)))
+    return WrittenInertia(Solid(mass, (0.0, 0.0, 0.0), (xx, yy, zz, xy, xz, yz)), at, is_written=True, piece=piece)
+
+
+def _solids(body: Piece, settings: MassSettings, solid_of: SolidOf) -> Sequence[Solid]:
+    """Return the geoms that count, in the frame of the body; the mass of a geom beats its density."""
+    found: list[Solid] = []
+    first, last = settings.groups
+    for geom in body.all_of("geom"):
+        if not first <= int(geom.peek("group") or "0") <= last:
+            continue
+        mass, density = geom.number("mass"), geom.number("density")
+        solid = solid_of(geom, DENSITY if density is None else density) if mass is None else None
+        if mass is not None:
+            filled = solid_of(geom, DENSITY)
+            solid = with_mass(filled, mass) if filled is not None and filled.mass else None
+        if solid is not None:
+            found.append(placed(solid, geom.transform()))
+    return found
+
+
+def _corrected(solid: Solid, settings: MassSettings) -> Solid:
+    """Return the solid with impossible moments balanced, and what is below the least values raised to them."""
+    mass = max(solid.mass, settings.least_mass)
+    inertia = solid.inertia
+    if settings.balances or settings.least_inertia:
+        inertia = _corrected_moments(inertia, settings)
+    return Solid(mass, solid.center, inertia)
+
+
+def _corrected_moments(inertia: Symmetric, settings: MassSettings) -> Symmetric:
+    moments, axes = principal_axes(inertia)
+    changed: Numbers = tuple(max(each, settings.least_inertia) for each in moments)
+    whole = sum(changed)
+    if settings.balances and any(a + b < whole - a - b for a, b in combinations(changed, 2)):
+        changed = (whole / 3, whole / 3, whole / 3)
+    if changed == moments:
+        return inertia
+    (a, b, c), (u, v, w) = changed, axes
+    columns: Matrix3 = (u[0], v[0], w[0], u[1], v[1], w[1], u[2], v[2], w[2])
+    return turned((a, b, c, 0.0, 0.0, 0.0), Transform(rotation=columns))
+
+
+def scale_of(settings: MassSettings, masses: Sequence[float]) -> float:
+    """Return the factor that gives all bodies together the mass that the file sets for them."""
+    whole = sum(masses)
+    return settings.total / whole if settings.total > 0 and whole > 0 else 1.0
+
+
+def inertial_of(found: WrittenInertia, scale: float, keeper: RemainderKeeper) -> Inertial:
+    """Return the inertial of a link; one that has no mass in MJCF gets a token, as SDF would give it 1 kg."""
+    solid, piece = found.solid, found.piece
+    if scale != 1.0:
+        solid = with_mass(solid, solid.mass * scale)
+    rest = keeper.rest(piece) if found.is_written else ()
+    if solid.mass <= LEAST:
+        message = f"body {piece.name!r} has no mass; SDF needs one, which is {TOKEN.mass:g} kg"
+        keeper.approximate(message, piece.location, rules.TINY_MASS)
+        return with_annotation(TOKEN, UNSAID, "inertial")
+    at = found.frame if found.is_written else Transform(translation=solid.center)
+    inertia = Inertia.unchecked(**dict(zip(ELEMENTS, solid.inertia, strict=True)))
+    pose = pose_of(at, source=piece.source)
+    return Inertial.unchecked(pose=pose, mass=solid.mass, inertia=inertia, opaque=rest, source=piece.source)

@@ -1,0 +1,50 @@
+"""Names of links, joints and frames: those of bodies, joints and sites, where SDF can hold them, or made ones.
+
+In MJCF each kind of part has its own names, and parts may have none. In SDF links, joints and frames of a model share
+their names. A changed name stands in `<tf:name>`, a made one in `<tf:made-name>`.
+"""
+
+from typing import TypeVar
+
+from twinform.compiler.input.mjcf.pieces import Piece
+from twinform.compiler.input.mjcf.remainders import MADE_NAME
+from twinform.ir import Node
+from twinform.ir.frames import WORLD
+from twinform.passes.carriers.annotations import with_annotation
+from twinform.passes.legalise.changed_names import NAME
+from twinform.passes.shared.nodes import reserve_name
+
+AnyNode = TypeVar("AnyNode", bound=Node)
+
+
+class NameScope:
+    """The names of one model; parts that come first keep theirs."""
+
+    def __init__(self) -> None:
+        self._taken = {WORLD}
+        self._given: dict[Piece, str] = {}
+
+    def give(self, piece: Piece, unnamed: str) -> str:
+        """Return the name of an element in SDF, which is given once; `unnamed` is what one without a name is called."""
+        if piece not in self._given:
+            self._given[piece] = reserve_name(safe_name(piece.take("name") or unnamed), self._taken)
+        return self._given[piece]
+
+    def make(self, wish: str) -> str:
+        """Return a new name for a part that no element stands for."""
+        return reserve_name(wish, self._taken)
+
+    def marked(self, node: AnyNode, piece: Piece) -> AnyNode:
+        """Return the node of an element with an annotation of the name that it has in MJCF, if that is another one."""
+        given = self._given[piece]
+        if piece.name is None:
+            return with_annotation(node, MADE_NAME, given)
+        if given == piece.name:
+            return node
+        return with_annotation(node, NAME, piece.name, {"instead_of": given})
+
+
+def safe_name(name: str) -> str:
+    """Return a name that SDF can hold: without `::`, and not one of those that it keeps for itself."""
+    safe = name.replace("::", "__").strip() or "unnamed"
+    return f"{safe.strip('_')}_" if safe.startswith("__") and safe.endswith("__") else safe

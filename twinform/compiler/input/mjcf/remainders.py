@@ -1,0 +1,153 @@
+"""What only MJCF says: elements `<tf:mjcf>` in the node that it belongs to, and an entry in the ledger for each part.
+
+    <joint name="hip" type="revolute"> ... <tf:mjcf><joint armature="0.1"/></tf:mjcf></joint>
+    <model name="ant"> ... <tf:mjcf><actuator><motor joint="hip" gear="150"/></actuator></tf:mjcf></model>
+
+Such an element holds only what the node around it does not say. Where the document is written as MJCF, attributes that
+the written element lacks are added, and what the node says wins.
+"""
+
+from collections.abc import Iterable, Mapping
+from typing import TypeVar
+
+from twinform.compiler.input.mjcf.pieces import Piece
+from twinform.diagnostics import DiagnosticSink, Fate, Location, Rule, rules
+from twinform.ir import Element, Node, Opaque
+from twinform.passes.carriers.carriers import NAMESPACE
+
+MJCF = "mjcf"
+"""The kind of the element of our namespace that holds the remainder of a part of MJCF."""
+MADE_NAME = "made-name"
+"""The annotation on a link, joint or model with a name that the file does not have: `<tf:made-name>NAME</tf:made-name>`.
+
+While the part is still called so, it has no name in MJCF.
+"""
+SAME_GEOM = "same-geom"
+"""The annotation on a visual that is one geom of MJCF with the collision of its name, if both have the same shape."""
+BODY_CHAIN = "body-chain"
+"""The annotation on a link that stands between two joints of one body: `<tf:body-chain body="torso"/>`."""
+
+AnyNode = TypeVar("AnyNode", bound=Node)
+
+_SOLVER = "it is a setting of MuJoCo's contact and constraint solver"
+_SHOWN = "it is a setting of MuJoCo's viewer"
+_REASONS: Mapping[str, str] = {
+    "armature": "SDF and URDF have no inertia of rotors",
+    "ref": "SDF and URDF call the drawn position zero; limits and springs are moved by it",
+    "user": "these are numbers of the user",
+    **dict.fromkeys(
+        (
+            "condim", "gap", "margin", "priority", "solimp", "solimpfriction", "solimplimit", "solmix", "solref",
+            "solreffriction", "solreflimit",
+        ),
+        _SOLVER,
+    ),
+    "friction": "SDF has no torsional and rolling friction with lengths",
+    "contype": "SDF has one mask for both sides of a contact",
+    "conaffinity": "SDF has one mask for both sides of a contact",
+    "group": _SHOWN,
+    "material": "SDF writes the colors into each visual",
+    "mass": "the mass of the link is written, and that of its shapes does not count",
+    "density": "the mass of the link is written, and that of its shapes does not count",
+    "actuator": "SDF and URDF have no actuators",
+    "asset": "SDF and URDF name files and colors where they are used",
+    "contact": "SDF and URDF do not name pairs of shapes",
+    "custom": "these are data of the user",
+    "deformable": "SDF and URDF have rigid bodies alone",
+    "equality": "SDF and URDF have no such constraint",
+    "extension": "these are plugins of MuJoCo",
+    "keyframe": "SDF and URDF have no states of MuJoCo",
+    "option": "it is a setting of MuJoCo",
+    "compiler": "it is a setting of MuJoCo",
+    "sensor": "SDF and URDF have no sensor of that kind",
+    "size": "it is a setting of MuJoCo",
+    "statistic": _SHOWN,
+    "tendon": "SDF and URDF have no tendons",
+    "visual": _SHOWN,
+}  # fmt: skip
+"""Why SDF does not say an attribute, or an element of a section."""
+_OTHER_REASON = "only MJCF has it"
+
+
+class RemainderKeeper:
+    """Makes the remainders of elements and enters each part of them into the ledger."""
+
+    def __init__(self, sink: DiagnosticSink) -> None:
+        self.sink = sink
+
+    def rest(self, piece: Piece, *, is_marked: bool = False) -> tuple[Opaque, ...]:
+        """Return what no node says of an element, without the elements in it; with `is_marked` also where it is empty.
+
+        The element is settled by that.
+        """
+        element = self.rest_element(piece)
+        return (holder(element),) if element.attributes or is_marked else ()
+
+    def rest_element(self, piece: Piece, named: bool = False) -> Element:
+        """Return the element with the attributes that no node says; `named` has its name even if that was taken."""
+        piece.is_settled = True
+        left = piece.untaken
+        for name, _ in left:
+            message = f"{name} of <{piece.tag}>{_called(piece)} is kept as it is: {reason(name, piece.tag)}"
+            self._carry(message, piece.location.at(f"@{name}"), 1)
+        if named and piece.name is not None and "name" in piece.taken and left:
+            left = (("name", piece.name), *left)
+        return Element.unchecked(name=piece.tag, attributes=left, source=piece.source)
+
+    def whole(self, piece: Piece, section: str = "", why: str | None = None) -> Element:
+        """Return a whole element of a section, which no node says."""
+        for each in piece.walk():
+            each.is_settled = True
+        element = piece.whole()
+        message = f"<{piece.tag}>{_called(piece)} is kept as it is: {why or reason(piece.tag, section)}"
+        self._carry(message, piece.location, element.weight)
+        return element.copy(source=piece.source)
+
+    def approximate(self, message: str, where: Location, rule: Rule = rules.MJCF_ONLY) -> None:
+        """Enter a part that the document says, but not exactly."""
+        self.sink.account(Fate.APPROXIMATED, rule, message, where, 0)
+
+    def _carry(self, message: str, where: Location, weight: int) -> None:
+        self.sink.account(Fate.CARRIED, rules.MJCF_ONLY, message, where, weight)
+
+
+def holder(*elements: Element) -> Opaque:
+    """Return an element of ours with remainders."""
+    return Opaque.unchecked(element=Element.unchecked(name=f"{{{NAMESPACE}}}{MJCF}", children=elements))
+
+
+def in_sections(sections: Mapping[str, Iterable[Element]]) -> tuple[Opaque, ...]:
+    """Return one element of ours with remainders in the sections of MJCF that they belong to."""
+    made = [
+        each if each.name == name else Element.unchecked(name=name, children=(each,))
+        for name, elements in sections.items()
+        for each in elements
+    ]
+    return (holder(*_joined(made)),) if made else ()
+
+
+def _joined(sections: Iterable[Element]) -> tuple[Element, ...]:
+    """Join sections of one name that have no attributes of their own."""
+    joined: dict[str, Element] = {}
+    for each in sections:
+        before = joined.get(each.name)
+        if before is None:
+            joined[each.name] = each
+        else:
+            attributes = (*before.attributes, *each.attributes)
+            joined[each.name] = before.copy(attributes=attributes, children=(*before.children, *each.children))
+    return tuple(joined.values())
+
+
+def reason(*words: str) -> str:
+    """Return why SDF does not say a part of MJCF: by its own name, or by that of what it is in."""
+    return next((_REASONS[word] for word in words if word in _REASONS), _OTHER_REASON)
+
+
+def _called(piece: Piece) -> str:
+    return f" {piece.name!r}" if piece.name else ""
+
+
+def with_rest(node: AnyNode, rest: tuple[Opaque, ...]) -> AnyNode:
+    """Return the node with remainders behind its other untyped parts."""
+    return node.copy(opaque=(*node.opaque, *rest)) if rest else node

@@ -1,0 +1,74 @@
+"""The sections of a canonical MJCF file, and which tree of bodies an element outside of them is about."""
+
+from collections.abc import Iterable, Mapping, Sequence
+
+from twinform.compiler.input.mjcf.pieces import Piece
+
+_NAMED = ("body", "joint", "freejoint", "geom", "site", "camera", "light")
+_BY_ATTRIBUTE: Mapping[str, str] = {
+    **dict.fromkeys(("body", "body1", "body2"), "body"),
+    **dict.fromkeys(("joint", "joint1", "joint2", "jointinparent"), "joint"),
+    **dict.fromkeys(("geom", "geom1", "geom2"), "geom"),
+    **dict.fromkeys(("site", "site1", "site2", "slidersite", "cranksite", "refsite", "sidesite"), "site"),
+    "camera": "camera",
+    **dict.fromkeys(("tendon", "tendon1", "tendon2"), "tendon"),
+    "actuator": "actuator",
+}
+"""The kind of part that an attribute names."""
+_BY_TYPE: Mapping[str, str] = {"objname": "objtype", "refname": "reftype"}
+"""Attributes that name a part whose kind stands in another one."""
+
+
+class Sections:
+    """The children of the root by their tags; a section may stand there several times."""
+
+    def __init__(self, root: Piece) -> None:
+        self._by_tag: dict[str, list[Piece]] = {}
+        for each in root.inside:
+            self._by_tag.setdefault(each.tag, []).append(each)
+
+    def of(self, tag: str) -> tuple[Piece, ...]:
+        """Return the sections of a name."""
+        return tuple(self._by_tag.get(tag, ()))
+
+    def inside(self, tag: str) -> tuple[Piece, ...]:
+        """Return what is in all sections of a name."""
+        return tuple(each for section in self.of(tag) for each in section.inside)
+
+    @property
+    def all(self) -> tuple[Piece, ...]:
+        """All sections, those of one name together."""
+        return tuple(each for found in self._by_tag.values() for each in found)
+
+
+class Owners:
+    """Which tree each named part of a file is in, counted from 0."""
+
+    def __init__(self, trees: Sequence[Piece], sections: Sections) -> None:
+        self._trees: dict[tuple[str, str], int] = {}
+        for number, tree in enumerate(trees):
+            for each in tree.walk():
+                if each.tag in _NAMED and each.name is not None:
+                    kind = "joint" if each.tag == "freejoint" else each.tag
+                    self._trees.setdefault((kind, each.name), number)
+        # tendons go over joints and sites, and actuators pull at tendons
+        for kind in ("tendon", "actuator"):
+            for each in sections.inside(kind):
+                owner = self.of(each)
+                if owner is not None and each.name is not None:
+                    self._trees.setdefault((kind, each.name), owner)
+
+    def of(self, piece: Piece) -> int | None:
+        """Return the one tree that all parts which an element names are in; None where there are none or several."""
+        found = {tree for each in piece.walk() for tree in self._named(each)}
+        return found.pop() if len(found) == 1 else None
+
+    def _named(self, piece: Piece) -> Iterable[int]:
+        for attribute, kind in _BY_ATTRIBUTE.items():
+            name = piece.peek(attribute)
+            if name is not None:
+                yield self._trees.get((kind, name), -1)
+        for attribute, type_ in _BY_TYPE.items():
+            name, kind = piece.peek(attribute), piece.peek(type_)
+            if name is not None and kind is not None:
+                yield self._trees.get((kind.removeprefix("x"), name), -1)
