@@ -348,6 +348,7 @@ def read_document(
         from twinform.compiler.input.mjcf import lower_mjcf  # noqa: PLC0415 - few files are MJCF
 
         document = lower_mjcf(root, context, load_options)
+        namespaces = document.namespaces
     amend(document, "namespaces", namespaces)
     allowances.settle(sink)
     return document, context, None if is_used_up else root, size, comments

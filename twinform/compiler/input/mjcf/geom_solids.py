@@ -5,6 +5,7 @@ that meshes which are not star-shaped weigh too much; `exact` gives them their s
 `shell` spreads the mass over the surface.
 """
 
+from importlib import import_module
 from typing import TYPE_CHECKING
 
 from twinform.compiler.input.mjcf.assets import AssetTable
@@ -13,7 +14,7 @@ from twinform.compiler.input.mjcf.pieces import Piece
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Heightmap, Mesh, Plane
 from twinform.ir.solids import NOTHING, Solid, placed, solid
-from twinform.passes.shared.mesh_solids import Meshes, MeshError
+from twinform.passes.shared.mesh_solids import MeshError, Meshes
 
 if TYPE_CHECKING:
     import numpy as np
@@ -47,9 +48,7 @@ class GeomSolids:
         measured = None if asset is None else self._of_asset(asset)
         if measured is None:
             return None
-        of_density = Solid(
-            measured.mass * density, measured.center, _times(measured.inertia, density)
-        )
+        of_density = Solid(measured.mass * density, measured.center, _times(measured.inertia, density))
         return placed(of_density, shape.at)
 
     def _of_asset(self, asset: Piece) -> Solid | None:
@@ -106,9 +105,8 @@ def _measure_faces(points: "Points", faces: "Faces", way: str) -> Solid | None:
 def _hull(points: "Points") -> "Faces":
     """Return the faces of the convex hull, outward."""
     import numpy as np  # noqa: PLC0415 - as above
-    from scipy.spatial import ConvexHull  # noqa: PLC0415 - few meshes ask for it
 
-    hull = ConvexHull(points)
+    hull = import_module("scipy.spatial").ConvexHull(points)  # few meshes ask for it
     faces = np.array(hull.simplices, dtype=np.int64)
     corners = points[faces]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
@@ -126,7 +124,7 @@ def _volumes(corners: "Points", *, signed: bool) -> "Points":
 
 
 def _moments(corners: "Points", weights: "Points", parts: int) -> "Points":
-    """Return the integral of x x^T over the tetrahedra to the origin (20 parts) or the triangles (12) of some weight."""
+    """Return the integral of x x^T over tetrahedra with the origin (20 parts) or over triangles (12 parts)."""
     import numpy as np  # noqa: PLC0415 - as above
 
     sums = corners.sum(axis=1)

@@ -29,8 +29,8 @@ from twinform.compiler.input.mjcf.settings import MassSettings
 from twinform.compiler.resolve_uris import LocalAssets
 from twinform.ir import Document, Element, Format, Frame, Light, Link, Model, Opaque, Sensor, World
 from twinform.passes.carriers.annotations import annotation, with_annotation
+from twinform.passes.carriers.carriers import NAMESPACE, PREFIX
 from twinform.passes.legalise.changed_names import NAME
-from twinform.passes.legalise.to_sdf.name_shapes import UNNAMED
 from twinform.passes.shared.mesh_solids import Meshes
 from twinform.passes.shared.nodes import reserve_name
 from twinform.schemas import DEFAULT_SDF_VERSION, Context, XmlElement
@@ -81,20 +81,24 @@ class FileLowering:
         models = [
             self._model(number, tree, name if alone else tree.name, taken) for number, tree in enumerate(self.trees)
         ]
-        source = self.root.source
         if not self.is_world:
             (model,) = models
             model = with_rest(model, in_sections(self._left(self._scene())))
-            return Document.unchecked(
-                format=Format.SDF, version=DEFAULT_SDF_VERSION, models=(model,), source=source
-            )
-        world = self._world(name, models)
-        return Document.unchecked(format=Format.SDF, version=DEFAULT_SDF_VERSION, worlds=(world,), source=source)
+            return self._in_sdf(models=(model,))
+        return self._in_sdf(worlds=(self._world(name, models),))
+
+    def _in_sdf(self, models: tuple[Model, ...] = (), worlds: tuple[World, ...] = ()) -> Document:
+        return Document.unchecked(
+            format=Format.SDF,
+            version=DEFAULT_SDF_VERSION,
+            namespaces=((PREFIX, NAMESPACE),),
+            models=models,
+            worlds=worlds,
+            source=self.root.source,
+        )
 
     def _model(self, number: int, tree: Piece, name: str | None, taken: set[str]) -> Model:
-        lowering = TreeLowering(
-            tree, self.geoms, self.keeper, self.inertias, self.scale, self.followers, self.efforts
-        )
+        lowering = TreeLowering(tree, self.geoms, self.keeper, self.inertias, self.scale, self.followers, self.efforts)
         parts = lowering.lower()
         self._close_loops(number, lowering, parts)
         self._add_sensors(parts)
@@ -108,7 +112,7 @@ class FileLowering:
             links=tuple(parts.links),
             joints=tuple(parts.joints),
             frames=tuple(parts.frames),
-            opaque=(*_name_mark(name, given), *_unnamed(parts.made_names)),
+            opaque=_name_mark(name, given),
             source=tree.source,
         )
         return with_rest(model, in_sections(self._left_of(number)))
@@ -252,11 +256,8 @@ class FileLowering:
             opaque=tuple(part for each in shapes for part in each.rest),
             source=bodies[0].source,
         )
-        names = [name for each in shapes for name in each.made_names]
-        marks = (annotation(MADE_NAME, WORLDBODY), *_unnamed(names))
-        return (
-            Model.unchecked(name=WORLDBODY, static=True, links=(link,), opaque=marks, source=bodies[0].source),
-        )
+        mark = (annotation(MADE_NAME, WORLDBODY),)
+        return (Model.unchecked(name=WORLDBODY, static=True, links=(link,), opaque=mark, source=bodies[0].source),)
 
 
 def _with_sensor(link: Link, sensor: Sensor) -> Link:
@@ -268,7 +269,3 @@ def _name_mark(name: str | None, given: str) -> tuple[Opaque, ...]:
     if name is None:
         return (annotation(MADE_NAME, given),)
     return () if name == given else (annotation(NAME, name, {"instead_of": given}),)
-
-
-def _unnamed(names: list[str]) -> tuple[Opaque, ...]:
-    return (annotation(UNNAMED, "\n".join(names)),) if names else ()

@@ -16,10 +16,10 @@ from twinform.compiler.input.mjcf.lower_joints import FREE, joint_type, lower_jo
 from twinform.compiler.input.mjcf.lower_lights import lower_camera, lower_light
 from twinform.compiler.input.mjcf.names import NameScope
 from twinform.compiler.input.mjcf.pieces import Piece, pose_of
-from twinform.compiler.input.mjcf.remainders import BODY_CHAIN, MADE_NAME, RemainderKeeper, holder
+from twinform.compiler.input.mjcf.remainders import MADE_NAME, RemainderKeeper, holder
 from twinform.ir import Element, Frame, Joint, Light, Link, Mimic, Opaque, Pose, Sensor
 from twinform.ir.frames import WORLD
-from twinform.passes.carriers.annotations import annotation, with_annotation
+from twinform.passes.carriers.annotations import annotate_synthesized, with_annotation
 from twinform.passes.carriers.token_mass import TOKEN
 
 JOINTS = ("joint", "freejoint")
@@ -28,14 +28,13 @@ JOINTS = ("joint", "freejoint")
 class TreeParts(NamedTuple):
     """What the bodies of a tree are in SDF.
 
-    `made_names` are those of shapes without a name, and `masks` those of the geoms of each link. `links_of` has the
+    `masks` are those of the geoms of each link. `links_of` has the
     names of links by those of bodies, `sites` the link and the frame of each named site.
     """
 
     links: list[Link]
     joints: list[Joint]
     frames: list[Frame]
-    made_names: list[str]
     masks: list[list[Bits]]
     links_of: dict[str, str]
     sites: dict[str, tuple[str, str]]
@@ -74,7 +73,7 @@ class TreeLowering:
         self._followers = followers
         self._efforts = efforts
         self._joint_names: dict[str, str] = {}
-        self.parts = TreeParts([], [], [], [], [], {}, {})
+        self.parts = TreeParts([], [], [], [], {}, {})
 
     @property
     def is_static(self) -> bool:
@@ -130,14 +129,13 @@ class TreeLowering:
         pose = None if is_root else pose_of(at, here.parent, body.source)
         inertial = inertial_of(self._inertias[body], self._scale, self._keeper)
         shapes = self._geoms.lower(body, name)
-        self.parts.made_names.extend(shapes.made_names)
         self.parts.masks.append([Bits.of(geom) for geom in body.all_of("geom")])
         gravity = None
         if body.peek_numbers("gravcomp") == (1.0,):
             body.take("gravcomp")
             gravity = False
         joints = [each for each in body.all_of(*JOINTS) if joint_type(each) != FREE]
-        between = self._between(joints, name, pose)
+        between = self._between(joints, pose)
         rest = (*self._keeper.rest(body), *shapes.rest, *self._free_joint(body))
         link = Link.unchecked(
             name=name,
@@ -159,12 +157,11 @@ class TreeLowering:
         self._frames(body, name)
         return name
 
-    def _between(self, joints: list[Piece], name: str, pose: Pose | None) -> list[Link]:
+    def _between(self, joints: list[Piece], pose: Pose | None) -> list[Link]:
         """Return the links between the joints of a body, all in its place."""
         made = [self.names.make(f"{self.names.give(each, '')}_link") for each in joints[:-1]]
-        mark = annotation(BODY_CHAIN, attributes={"body": name})
         return [
-            Link.unchecked(name=each, pose=pose, inertial=TOKEN, opaque=(mark,), source=joint.source)
+            annotate_synthesized(Link.unchecked(name=each, pose=pose, inertial=TOKEN, source=joint.source))
             for each, joint in zip(made, joints[:-1], strict=True)
         ]
 

@@ -36,9 +36,7 @@ def mimic_of(piece: Piece, found: JointFollowing, leader: str) -> Mimic:
     """Take an equality of joints: the mimic of its follower, whose leader is called so in SDF."""
     for attribute in ("joint1", "joint2", "polycoef", "active"):
         piece.take(attribute)
-    return Mimic.unchecked(
-        joint=leader, multiplier=found.multiplier, offset=found.offset or None, source=piece.source
-    )
+    return Mimic.unchecked(joint=leader, multiplier=found.multiplier, offset=found.offset or None, source=piece.source)
 
 
 def lower_loop(piece: Piece, name: str, links: Mapping[str, str], keeper: RemainderKeeper) -> Joint | None:
@@ -50,7 +48,7 @@ def lower_loop(piece: Piece, name: str, links: Mapping[str, str], keeper: Remain
     first, second = piece.peek("body1"), piece.peek("body2")
     if piece.tag not in {"connect", "weld"} or piece.peek("active") == "false":
         return None
-    if first not in links or second not in links:
+    if first is None or second is None or first not in links or second not in links:
         return None
     if piece.tag == "weld" and _places(piece):
         return None

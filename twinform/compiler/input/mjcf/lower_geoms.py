@@ -13,7 +13,7 @@ from twinform.compiler.input.mjcf.contact_masks import Bits, ContactMasks
 from twinform.compiler.input.mjcf.lower_materials import is_invisible, lower_material
 from twinform.compiler.input.mjcf.lower_shapes import PlacedShape, lower_shape
 from twinform.compiler.input.mjcf.pieces import Piece, pose_of
-from twinform.compiler.input.mjcf.remainders import SAME_GEOM, RemainderKeeper, holder
+from twinform.compiler.input.mjcf.remainders import MADE_NAME, SAME_GEOM, RemainderKeeper, holder
 from twinform.ir import Collision, Element, Geometry, Opaque, Pose, Surface, Visual
 from twinform.passes.carriers.annotations import annotation
 from twinform.passes.shared.nodes import reserve_name
@@ -24,12 +24,35 @@ _USUAL_FRICTION = (1.0, 0.005, 0.0001)
 
 
 class LinkShapes(NamedTuple):
-    """The shapes of a link, what of its geoms has no shape in SDF, and the names that were made for shapes."""
+    """The shapes of a link, and what of its geoms has no shape in SDF."""
 
     collisions: tuple[Collision, ...] = ()
     visuals: tuple[Visual, ...] = ()
     rest: tuple[Opaque, ...] = ()
-    made_names: tuple[str, ...] = ()
+
+
+class _Named(NamedTuple):
+    """A geom with the name and the shape that it has in SDF."""
+
+    geom: Piece
+    name: str
+    placed: PlacedShape
+    touches: bool
+
+    @property
+    def marks(self) -> tuple[Opaque, ...]:
+        """The annotation of a name that was made."""
+        return () if self.geom.name else (annotation(MADE_NAME, self.name),)
+
+    @property
+    def pose(self) -> Pose | None:
+        """Where the shape is in the link."""
+        return pose_of(self.geom.transform().compose(self.placed.at), source=self.geom.source)
+
+    @property
+    def geometry(self) -> Geometry:
+        """The shape."""
+        return Geometry.unchecked(shape=self.placed.shape, source=self.geom.source)
 
 
 class GeomLowering(NamedTuple):
@@ -44,7 +67,6 @@ class GeomLowering(NamedTuple):
         geoms = tuple(body.all_of("geom"))
         hides = any(not Bits.of(each).touches and _group(each) in {1, 2} for each in geoms)
         names = {each.name for each in geoms if each.name}
-        made_names: list[str] = []
         collisions: list[Collision] = []
         visuals: list[Visual] = []
         rest: list[Element] = []
@@ -55,42 +77,15 @@ class GeomLowering(NamedTuple):
                 rest.append(self.keeper.whole(geom, why=why))
                 continue
             touches = Bits.of(geom).touches
-            if geom.name is None:
-                name = reserve_name(f"{link}_{'collision' if touches else 'visual'}", names)
-                made_names.append(name)
-            else:
-                name = geom.take("name") or ""
+            unnamed = f"{link}_{'collision' if touches else 'visual'}"
+            one = _Named(geom, geom.take("name") or reserve_name(unnamed, names), placed, touches)
             is_shown = not touches or self._is_shown(geom, hides=hides)
-            pose = pose_of(geom.transform().compose(placed.at), source=geom.source)
-            material = lower_material(geom, self.assets) if is_shown else None
-            if not touches:
-                geom.take("contype")
-                geom.take("conaffinity")
-                visuals.append(
-                    Visual.unchecked(
-                        name=name,
-                        pose=pose,
-                        geometry=_geometry(placed, geom),
-                        material=material,
-                        opaque=self._rest(geom),
-                        source=geom.source,
-                    )
-                )
-                continue
-            collisions.append(self._collision(geom, name, pose, placed))
             if is_shown:
-                visuals.append(
-                    Visual.unchecked(
-                        name=name,
-                        pose=pose,
-                        geometry=_geometry(placed, geom),
-                        material=material,
-                        opaque=(annotation(SAME_GEOM),),
-                        source=geom.source,
-                    )
-                )
+                visuals.append(self._visual(one))
+            if touches:
+                collisions.append(self._collision(one))
         kept = (holder(*rest),) if rest else ()
-        return LinkShapes(tuple(collisions), tuple(visuals), kept, tuple(made_names))
+        return LinkShapes(tuple(collisions), tuple(visuals), kept)
 
     def _is_shown(self, geom: Piece, *, hides: bool) -> bool:
         group = _group(geom)
@@ -98,15 +93,32 @@ class GeomLowering(NamedTuple):
             return False
         return not is_invisible(geom, self.assets)
 
-    def _collision(self, geom: Piece, name: str, pose: Pose | None, placed: PlacedShape) -> Collision:
-        surface = _surface(geom, self.masks.take(geom))
+    def _visual(self, one: _Named) -> Visual:
+        """Return the visual of a geom; of one that touches too, the collision holds the remainder."""
+        material = lower_material(one.geom, self.assets)
+        if one.touches:
+            rest = (annotation(SAME_GEOM),)
+        else:
+            one.geom.take("contype")
+            one.geom.take("conaffinity")
+            rest = self._rest(one.geom)
+        return Visual.unchecked(
+            name=one.name,
+            pose=one.pose,
+            geometry=one.geometry,
+            material=material,
+            opaque=(*one.marks, *rest),
+            source=one.geom.source,
+        )
+
+    def _collision(self, one: _Named) -> Collision:
         return Collision.unchecked(
-            name=name,
-            pose=pose,
-            geometry=_geometry(placed, geom),
-            surface=surface,
-            opaque=self._rest(geom),
-            source=geom.source,
+            name=one.name,
+            pose=one.pose,
+            geometry=one.geometry,
+            surface=_surface(one.geom, self.masks.take(one.geom)),
+            opaque=(*one.marks, *self._rest(one.geom)),
+            source=one.geom.source,
         )
 
     def _rest(self, geom: Piece) -> tuple[Opaque, ...]:
@@ -117,10 +129,6 @@ class GeomLowering(NamedTuple):
 
 def _group(geom: Piece) -> int:
     return int(geom.peek("group") or "0")
-
-
-def _geometry(placed: PlacedShape, geom: Piece) -> Geometry:
-    return Geometry.unchecked(shape=placed.shape, source=geom.source)
 
 
 def _surface(geom: Piece, mask: int | None) -> Surface | None:

@@ -69,16 +69,19 @@ def _color(rgb: Numbers) -> Color:
 
 def lower_camera(piece: Piece, name: str, keeper: RemainderKeeper) -> Sensor | None:
     """Build a camera; None for one that follows something, or that is given by its lens."""
-    if (piece.peek("mode") or _FIXED) != _FIXED or piece.has("sensorsize") or piece.peek("projection") == "orthographic":
+    if (
+        (piece.peek("mode") or _FIXED) != _FIXED
+        or piece.has("sensorsize")
+        or piece.peek("projection") == "orthographic"
+    ):
         return None
     piece.take("name")
     piece.take("mode")
     piece.take("projection")
     resolution = piece.peek_numbers("resolution")
-    has_image = len(resolution) > 1 and resolution[0] > 1
-    width, height = resolution[:2] if has_image else _PIXELS
-    if has_image:
-        piece.take("resolution")
+    width, height = _PIXELS
+    if any(each > 1 for each in resolution):  # the default of one pixel says nothing of the shape of an image
+        width, height = piece.numbers("resolution")
     fovy = math.radians(next(iter(piece.numbers("fovy")), _FOVY))
     angle = 2 * math.atan(math.tan(fovy / 2) * width / height)
     size = (Element.unchecked(name="width", text=f"{width:g}"), Element.unchecked(name="height", text=f"{height:g}"))

@@ -1,4 +1,4 @@
-"""Colors and textures of geoms as materials of SDF: diffuse and ambient color, specular, emissive, and an albedo map."""
+"""Colors and textures of geoms as materials of SDF: their colors, and the image of a texture as an albedo map."""
 
 from twinform.compiler.input.mjcf.assets import AssetTable
 from twinform.compiler.input.mjcf.pieces import Numbers, Piece
@@ -33,8 +33,8 @@ def lower_material(geom: Piece, assets: AssetTable) -> Material | None:
 def is_invisible(geom: Piece, assets: AssetTable) -> bool:
     """Tell whether a geom is wholly transparent."""
     asset = assets.find("material", geom.peek("material"))
-    rgba = geom.peek_numbers("rgba") or (asset.peek_numbers("rgba") if asset else ())
-    return len(rgba) == len(_WHITE) and rgba[3] == 0.0
+    rgba = geom.peek_numbers("rgba") or (asset.peek_numbers("rgba") if asset else _WHITE)
+    return rgba[-1:] == (0.0,) and len(rgba) == len(_WHITE)
 
 
 def _texture(material: Piece, assets: AssetTable) -> str | None:

@@ -45,9 +45,7 @@ def by_site(sensors: Iterable[Piece]) -> tuple[SiteSensor, ...]:
     return tuple(SiteSensor(site, kind, tuple(pieces)) for (site, kind), pieces in found.items())
 
 
-def lower_sensor(
-    found: SiteSensor, name: str, frame: str, link: Link, keeper: RemainderKeeper
-) -> Sensor | None:
+def lower_sensor(found: SiteSensor, name: str, frame: str, link: Link, keeper: RemainderKeeper) -> Sensor | None:
     """Build a sensor in the frame of its site; None for one of contacts on a link that touches nothing."""
     inside = _parameters(found, link)
     if inside is None:

@@ -9,8 +9,9 @@ from collections.abc import Iterator
 
 from twinform.diagnostics import Location, Source
 from twinform.ir import Element, Pose
-from twinform.ir.transform import Transform
-from twinform.schemas import XmlElement, children
+from twinform.ir.transform import Transform, rounded
+from twinform.schemas import XmlElement
+from twinform.schemas.xml import children
 
 Numbers = tuple[float, ...]
 
@@ -94,11 +95,11 @@ class Piece:
 
     def walk(self) -> "Iterator[Piece]":
         """Yield this element and all below it, outer elements first."""
-        waiting = [self]
+        waiting: list[Piece] = [self]
         while waiting:
             here = waiting.pop()
             yield here
-            waiting += reversed(here.inside)
+            waiting.extend(reversed(here.inside))
 
     @property
     def untaken(self) -> tuple[tuple[str, str], ...]:
@@ -137,13 +138,17 @@ def pose_of(at: Transform, relative_to: str | None = None, source: Source | None
     """
     if at.is_identity and relative_to is None:
         return None
-    xyz = at.translation if any(at.translation) else None
+    xyz = rounded(at.translation) if any(at.translation) else None
     if at.is_unturned:
         return Pose.unchecked(xyz=xyz, relative_to=relative_to, source=source)
-    quat = at.notation.quat_xyzw if at.notation and at.notation.quat_xyzw else at.quaternion()
-    quat = _unit(quat)
+    quat = _unit(at.notation.quat_xyzw if at.notation and at.notation.quat_xyzw else at.quaternion())
+    x, y, z = rounded(quat[:3])
     return Pose.unchecked(
-        xyz=xyz, quat_xyzw=quat, rotation_format="quat_xyzw", relative_to=relative_to, source=source
+        xyz=xyz,
+        quat_xyzw=(x, y, z, rounded((quat[3], 0.0, 0.0))[0]),
+        rotation_format="quat_xyzw",
+        relative_to=relative_to,
+        source=source,
     )
 
 
