@@ -147,5 +147,7 @@ class _BodyTree:
 
     def _element(self, body: Body, hold: Hold, children: list[Element]) -> Element:
         placed = placement(self.context.place(body.name, hold.parent))
-        element = make_element("body", [("name", body.written), *placed], children, body.link.source)
+        # Gravity is compensated for a link that it does not act on.
+        weightless = [("gravcomp", "1")] if body.link.gravity is False else []
+        element = make_element("body", [("name", body.written), *placed, *weightless], children, body.link.source)
         return with_kept(element, body.link)

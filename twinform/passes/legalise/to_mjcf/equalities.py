@@ -1,8 +1,104 @@
-"""Equalities of MJCF: joints that close a loop, which are no part of the tree (`context.tree.closing`)."""
+"""Equalities of MJCF: joints that close a loop, which are no part of the tree (`context.tree.closing`).
 
-from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext
+A ball is a `connect` at its origin, a fixed joint a `weld`, and a hinge two `connect`, at two points of its axis. They
+hold bodies where these are drawn. Joints of other types hold nothing in MJCF, and are carried.
+"""
+
+from twinform.diagnostics import Fate, rules
+from twinform.ir import Element, Joint
+from twinform.ir.defaults import direction
+from twinform.ir.document import Format
+from twinform.ir.frames import WORLD
+from twinform.ir.kinematic_tree import JointBetween
+from twinform.ir.node import Vector3
+from twinform.ir.transform import Transform, rounded
+from twinform.passes.legalise.to_mjcf.elements import Value, make_element
+from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements
+from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext, scope_of
+
+_BALLS = frozenset({"ball", "spherical"})
+_HINGES = frozenset({"revolute", "continuous"})
+ARM = 0.1
+"""How far along the axis of a hinge its second point is, in m: a loop gives way about as much there as at the first."""
 
 
 def add_equalities(context: MjcfContext) -> None:
     """Add what closes loops to the `equality` section. All bodies and joints have their names by now."""
-    del context
+    for between in context.tree.closing:
+        if between.type != "gearbox":  # which couples two joints, and connects nothing by itself
+            _close(context, between)
+
+
+def _close(context: MjcfContext, between: JointBetween) -> None:
+    joint = between.joint
+    ends: list[tuple[str, Value]] = [
+        ("body1", _body(context, between.parent)),
+        ("body2", _body(context, between.child)),
+    ]
+    if joint.type == "fixed":
+        _add(context, between, [_equality("weld", between.name, ends, joint)])
+        return
+    points = _points(context, between)
+    if not points:
+        message = f"{joint.type} joint {joint.name!r} closes a loop, and MuJoCo holds loops together at points alone"
+        context.account(rules.NOT_IN_MJCF, message, joint.location, 0)
+        return
+    names = [between.name, f"{between.name}_axis"][: len(points)]
+    pairs = zip(names, points, strict=True)
+    made = [_equality("connect", name, [*ends, ("anchor", rounded(point))], joint) for name, point in pairs]
+    _add(context, between, made)
+    if joint.type in _HINGES and joint.axis is not None and (joint.axis.limit or joint.axis.dynamics):
+        message = f"joint {joint.name!r} closes a loop, and has neither limits nor damping in MJCF"
+        context.sink.account(Fate.APPROXIMATED, rules.NOT_IN_MJCF, message, joint.location, 0)
+
+
+def _add(context: MjcfContext, between: JointBetween, elements: list[Element]) -> None:
+    names: list[str] = []
+    for each in elements:
+        name = context.name("equality", each.get("name"), between.joint.location) or between.name
+        names.append(name)
+        context.add("equality", each.copy(attributes=(("name", name), *each.attributes[1:])))
+    context.written_joints[between.name] = tuple(names)
+
+
+def _equality(tag: str, name: str, attributes: list[tuple[str, Value]], joint: Joint) -> Element:
+    """One equality, with the settings of the solver that the joint keeps of the one that it was read from."""
+    made = make_element(tag, [("name", name), *attributes], (), joint.source)
+    for section in kept_elements(joint):
+        for kept in section.children:
+            if section.name == "equality" and kept.name == tag:
+                known = {key for key, _ in made.attributes}
+                more = tuple(pair for pair in kept.attributes if pair[0] not in known)
+                made = made.copy(attributes=(*made.attributes, *more))
+    return made
+
+
+def _points(context: MjcfContext, between: JointBetween) -> list[Vector3]:
+    """The points in the frame of the parent where both bodies have to stay together; none for other types of joints."""
+    joint = between.joint
+    if joint.type not in _BALLS | _HINGES:
+        return []
+    parent = between.parent if between.parent in context.tree.links else None
+    at = context.place(between.name, parent, kind="joint")
+    if joint.type in _BALLS:
+        return [at.translation]
+    x, y, z = _axis(context, between, at)
+    length = (x * x + y * y + z * z) ** 0.5 or 1.0
+    along = (at.translation[0] + ARM * x / length, at.translation[1] + ARM * y / length)
+    return [at.translation, (*along, at.translation[2] + ARM * z / length)]
+
+
+def _axis(context: MjcfContext, between: JointBetween, at: Transform) -> Vector3:
+    """The direction of the axis in the frame of the parent."""
+    axis = between.joint.axis
+    written = direction(axis, Format.SDF)
+    if axis is None or not axis.expressed_in:
+        return at.rotate(written)
+    frame = axis.expressed_in if axis.expressed_in == WORLD else scope_of(between.name) + axis.expressed_in
+    parent = between.parent if between.parent in context.tree.links else None
+    return context.place(frame, parent, kind="joint").rotate(written)
+
+
+def _body(context: MjcfContext, link: str) -> str:
+    """The name of the body of a link; that of the world is `world`."""
+    return context.written_bodies.get(link, link)

@@ -7,12 +7,11 @@ from twinform.ir import Document, Element, Format, Model, Opaque, World
 from twinform.ir.frames import FrameError
 from twinform.passes.carriers.carriers import Keeper
 from twinform.passes.framework.pass_base import AssetPass
-from twinform.passes.legalise.to_mjcf.actuators import add_actuators
 from twinform.passes.legalise.to_mjcf.bodies import body_elements
 from twinform.passes.legalise.to_mjcf.contacts import add_contacts
 from twinform.passes.legalise.to_mjcf.elements import make_element
 from twinform.passes.legalise.to_mjcf.equalities import add_equalities
-from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements
+from twinform.passes.legalise.to_mjcf.kept_sections import SINGLE, add_kept_sections
 from twinform.passes.legalise.to_mjcf.lights import world_lights
 from twinform.passes.legalise.to_mjcf.mimics import add_gearboxes, add_mimics
 from twinform.passes.legalise.to_mjcf.options import add_options
@@ -38,8 +37,6 @@ _SECTIONS = (
 )  # fmt: skip
 _LACKS = frozenset({"cone", "polyline", "image"})
 """The kinds of shapes for which a mesh stands, where there can be one."""
-_SINGLE = frozenset({"compiler", "option", "size", "visual", "statistic"})
-"""Sections that are one element with attributes: what is added to them is merged."""
 
 
 class WriteMjcf(AssetPass):
@@ -97,10 +94,7 @@ def _write_sections(context: MjcfContext) -> None:
     add_gearboxes(context)
     add_equalities(context)
     add_contacts(context)
-    add_actuators(context)
-    for kept in kept_elements(context.holder):
-        for each in (kept,) if kept.name in _SINGLE else kept.children:
-            context.add(kept.name, each)
+    add_kept_sections(context)
     add_texts(context)
 
 
@@ -110,7 +104,7 @@ def _in_order(context: MjcfContext) -> list[Element]:
     for name in _SECTIONS:
         elements = context.sections.get(name, [])
         if elements:
-            found.append(_merged(elements) if name in _SINGLE else make_element(name, (), elements))
+            found.append(_merged(elements) if name in SINGLE else make_element(name, (), elements))
         elif name == "worldbody":
             found.append(make_element(name))
     return found
