@@ -109,6 +109,8 @@ class Documentation:
     def of(self, path: Path, row: Fact, like: Sequence[Fact] = ()) -> str:
         """The documentation of a row; `like` are all rows of its name, one for each group of versions."""
         sentences = [self.texts.get(path, "")]
+        if row.names:
+            sentences.append(f"The name of a {' or '.join(row.names)}.")
         if row.unit is not None:
             sentences.append(f"Unit: {_UNIT_WORDS.get(row.unit, row.unit)}.")
         if row.default is not None:

@@ -1,6 +1,6 @@
 """Diagnostics of the reader: one function for each, apart from the hot path."""
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from dataclasses import field
 from typing import NamedTuple, TypedDict, Unpack
 
@@ -114,7 +114,18 @@ def unknown_element(
         help=hint_for_element(context.format, name, _free(element.getparent(), known, once), attributes, around)
         if _is_shown(context)
         else None,
+        refused=_is_refused(context, around) and [name, *around] != ["body", "mujoco"],
     )
+
+
+def _is_refused(context: Context, around: Sequence[str]) -> bool:
+    """Tell whether the program that a file is for refuses what it does not know in these elements."""
+    # MuJoCo does not look at what it knows nothing of in a frame or replicate, nor at bodies beside the world
+    # (asked of 4.0.0). Other readers skip what they do not know.
+    return context.format == "mjcf" and not _UNCHECKED.intersection(around)
+
+
+_UNCHECKED = frozenset({"frame", "replicate"})
 
 
 def _around(element: XmlElement) -> list[str]:
@@ -142,7 +153,8 @@ def unknown_attribute(
     message = f"{name!r} is not an attribute of <{element.tag}>"
     free = [each for each in known if each not in element.attrib] if _is_shown(context) else ()
     hint = hint_for_attribute(context.format, name, free, children) if _is_shown(context) else None
-    context.report(rules.UNKNOWN_ATTRIBUTE, element, message, f"@{name}", found=name, help=hint)
+    refused = _is_refused(context, [str(element.tag), *_around(element)])
+    context.report(rules.UNKNOWN_ATTRIBUTE, element, message, f"@{name}", found=name, help=hint, refused=refused)
 
 
 def outside_version(context: Context, element: XmlElement, fact: Fact) -> None:
@@ -160,6 +172,8 @@ def outside_version(context: Context, element: XmlElement, fact: Fact) -> None:
     if holder:
         message = message.replace("was removed", f"moved to <{holder}>", 1)
     details: FindingDetails = {"found": name, "help": hint, "severity": severity}
+    if context.format == "mjcf":  # of which no file declares a version
+        details |= {"severity": None, "refused": _is_refused(context, _around(element))}
     if context.format == "urdf":  # urdfdom 6 ignores an attribute of a later version, and knows no shape of one
         details["refused"] = not fact.is_attribute
         message += "; readers ignore it" if fact.is_attribute else "; readers refuse it"
@@ -180,7 +194,8 @@ def _when(context: Context, fact: Fact) -> str:
     when = f"was added in {context.format.upper()} {print_version(fact.since)}"
     if fact.until < context.version:
         when = f"was removed after {context.format.upper()} {print_version(fact.until)}"
-    return f"{when}; the file declares {print_version(context.version)}" if context.declared else when
+    is_declared = context.declared and context.format != "mjcf"
+    return f"{when}; the file declares {print_version(context.version)}" if is_declared else when
 
 
 def missing_child(context: Context, element: XmlElement, name: str) -> None:
@@ -323,7 +338,8 @@ def repeated(context: Context, element: XmlElement) -> None:
     if other is not None and next(element.itersiblings(str(element.tag), preceding=True), None) is None:
         message = f"<{element.tag}> stands beside <{other.tag}> in {holder}, which has one of them"
     # Root.cc: of what stands outside of worlds there may be one, or the file is refused
-    context.report(rules.REPEATED_ELEMENT, element, message, refused=parent is not None and parent.tag == "sdf")
+    refused = (parent is not None and parent.tag == "sdf") or _is_refused(context, _around(element))
+    context.report(rules.REPEATED_ELEMENT, element, message, refused=refused)
 
 
 def invalid_value(context: Context, element: XmlElement, step: str, text: str, expected: str) -> None:
