@@ -98,8 +98,11 @@ def _measure_faces(points: "Points", faces: "Faces", way: str) -> Solid | None:
         return None
     # the center of a tetrahedron is a quarter of the way from its face's three corners to the apex
     center = middle + ((corners - middle).sum(axis=1) / 4 * volumes[:, None]).sum(axis=0) / volumes.sum()
+    # MuJoCo adds the volumes once more about that center: of a mesh that is not star-shaped about both points, the mass
+    # is another one then.
     moved = corners - center
-    return _solid_of(float(volumes.sum()), center, _moments(moved, _volumes(moved, signed=signed), 20))
+    volumes = _volumes(moved, signed=signed)
+    return _solid_of(float(volumes.sum()), center, _moments(moved, volumes, 20))
 
 
 def _hull(points: "Points") -> "Faces":
