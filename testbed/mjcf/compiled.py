@@ -145,6 +145,18 @@ def compile_urdf(text: bytes, folder: str | None = None, *, absent_is_nothing: b
     return compile_mjcf(etree.tostring(robot, encoding="unicode"), folder)
 
 
+def without_meshes(text: str) -> str:
+    """MJCF without its meshes and height fields, and the geoms of these."""
+    root = etree.fromstring(text.encode())
+    for each in [*root.iterfind("asset"), *root.iterfind(".//geom[@mesh]"), *root.iterfind(".//geom[@hfield]")]:
+        around = each.getparent()
+        if around is not None:
+            around.remove(each)
+    for geom in root.iterfind(".//geom[@material]"):
+        del geom.attrib["material"]
+    return etree.tostring(root, encoding="unicode")
+
+
 def compile_mjcf(text: str, folder: str | None = None) -> Compiled:
     """Compile a model; relative paths of files lead from `folder`.
 

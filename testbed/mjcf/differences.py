@@ -100,29 +100,30 @@ def _motions(source: Compiled, made: Compiled, pairs: list[Pair], draw: np.rando
         theirs = np.zeros(made.model.nv)
         theirs[order] = speed
         one, other = source.at(here, speed), made.at(there, theirs)
-        _compare(found, "the mass matrix", one.mass, other.mass[np.ix_(order, order)])
-        _compare(found, "the bias forces", one.bias, other.bias[order])
+        compare(found, "the mass matrix", one.mass, other.mass[np.ix_(order, order)])
+        compare(found, "the bias forces", one.bias, other.bias[order])
         _compare_poses(found, "body", one.bodies, other.bodies)
         if geoms is None:
             geoms, missing = _match_geoms(source, made, one, other)
             found |= dict(zip(missing, missing, strict=True))
         for first, second in geoms:
-            _compare(found, f"the pose of geom {first}", one.geoms[first], other.geoms[second])
+            compare(found, f"the pose of geom {first}", one.geoms[first], other.geoms[second])
     return list(found.values())
 
 
 def _compare_poses(found: dict[str, str], kind: str, one: Mapping[str, Array], other: Mapping[str, Array]) -> None:
     for name, pose in one.items():
         if name in other:
-            _compare(found, f"the pose of {kind} {name!r}", pose, other[name])
+            compare(found, f"the pose of {kind} {name!r}", pose, other[name])
         else:
             found[name] = f"{kind} {name!r} is missing"
 
 
-def _compare(found: dict[str, str], what: str, one: Array, other: Array) -> None:
+def compare(found: dict[str, str], what: str, one: Array, other: Array, tolerance: float = TOLERANCE) -> None:
+    """Note the first difference of a kind, which is relative to the largest number, at least one."""
     size = max(1.0, float(np.max(np.abs(one), initial=0.0)))
     off = float(np.max(np.abs(one - other), initial=0.0))
-    if not off <= TOLERANCE * size:
+    if not off <= tolerance * size:
         found.setdefault(what, f"{what} differs by {off:.2g} of {size:.2g}")
 
 

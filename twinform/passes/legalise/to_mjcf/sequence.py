@@ -32,10 +32,13 @@ def to_mjcf(source: Format, version: str | None, requested: Requested = USUAL) -
 
 def _robot_on_the_world(version: str, requested: Requested) -> Iterator[Pass]:
     """Yield the passes from URDF to SDF, with one more that fixes the robot to the world of SDF."""
+    from twinform.passes.legalise.to_sdf.mesh_uris import MeshUris  # noqa: PLC0415 - see above
     from twinform.passes.legalise.to_sdf.sequence import to_sdf  # noqa: PLC0415 - many passes
     from twinform.passes.legalise.to_sdf.world_link import WorldLink  # noqa: PLC0415 - see above
 
     for each in to_sdf(version, requested):
+        if isinstance(each, MeshUris):  # files are looked up, as the URDF names them
+            continue
         yield each
         # From here on a joint may have the world as its parent. Names are made unique after it.
         if isinstance(each, WorldLink):
