@@ -76,7 +76,9 @@ class _Match:
             if joint.type_name() not in {"revolute", "prismatic"}:
                 continue
             facts = self.made.facts(self.made.joints[name])
-            ends = tuple(_end(float(each[0])) for each in (joint.position_lower_limits(), joint.position_upper_limits()))
+            ends = tuple(
+                _end(float(each[0])) for each in (joint.position_lower_limits(), joint.position_upper_limits())
+            )
             range_ = facts.range or (-math.inf, math.inf)
             if not np.allclose(ends, range_, rtol=TOLERANCE, atol=2 * TOLERANCE):
                 yield f"range of joint {name!r}: {ends} is {range_}"

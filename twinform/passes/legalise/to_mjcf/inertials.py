@@ -69,6 +69,11 @@ def _has_token_moments(inertial: Inertial) -> bool:
 def inertial_elements(context: MjcfContext, body: Body) -> list[Element]:
     """The inertial of a body; none where its link has no mass."""
     link = body.link
+    if link.inertial is not None and link.inertial.auto:
+        message = f"the inertia of link {link.name!r} is left to be computed from its collisions, which is not possible"
+        help_ = "write mass and inertia, or give it collisions that are closed"
+        context.sink.report(rules.AUTOMATIC_INERTIA, message, link.inertial.location, help=help_)
+        return []
     weight = weight_of(link)
     if weight.is_nothing:
         return []

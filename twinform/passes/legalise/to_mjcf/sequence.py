@@ -7,10 +7,14 @@ from twinform.passes.framework.pass_base import Pass
 from twinform.passes.legalise.to_mjcf.hold_root import HoldRoot
 from twinform.passes.legalise.to_mjcf.write_mjcf import WriteMjcf
 from twinform.passes.sdf_versions import change_version
+from twinform.passes.sdf_versions.write_inertias import WriteInertias
 from twinform.request_options import USUAL, Requested
 from twinform.schemas import versions_of
 
 __all__ = ["to_mjcf"]
+
+_WITHOUT_AUTOMATIC = "1.10"
+"""The last version of SDF in which no inertia is left to be computed from the collisions."""
 
 
 def to_mjcf(source: Format, version: str | None, requested: Requested = USUAL) -> tuple[Pass, ...]:
@@ -27,7 +31,9 @@ def to_mjcf(source: Format, version: str | None, requested: Requested = USUAL) -
         shape_error=requested.shape_error,
         side_files=requested.side_files,
     )
-    return (*in_sdf, write)
+    # MuJoCo computes inertias of shapes in its own way, and of all links or none.
+    written_out = WriteInertias.unchecked(version=_WITHOUT_AUTOMATIC, carriers=requested.carriers)
+    return (*in_sdf, written_out, write)
 
 
 def _robot_on_the_world(version: str, requested: Requested) -> Iterator[Pass]:
