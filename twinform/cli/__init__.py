@@ -32,7 +32,7 @@ COMMANDS: Mapping[str, str] = {
     "reproduce": "Run a pass again that failed.",
     "passes": "List the passes, or print the page of one.",
     "explain": "Print the page of a rule, or who reads a feature; list all rules.",
-    "schema": "Print the schema of URDF, SDF, JSON or the configuration.",
+    "schema": "Print the schema of URDF, SDF, MJCF, JSON or the configuration.",
     "clean": "Delete the results of earlier runs of check and format.",
     "lsp": "Be the language server of an editor.",
     "mcp": "Serve agents and scripts by the Model Context Protocol.",

@@ -57,8 +57,8 @@ def command(
     """Say which format to keep a robot in, and who takes it.
 
     The reasons are measured: the model is converted into the other format, and the profiles of all consumers are asked
-    about both. IN is a URDF, SDF, xacro or JSON file; - is standard input. Arguments of xacro are written NAME:=VALUE.
-    Exit code: 0 where there is advice, 1 where the file has errors, 2 where it could not be read.
+    about both. IN is a URDF, SDF, MJCF, xacro or JSON file; - is standard input. Arguments of xacro are written
+    NAME:=VALUE. Exit code: 0 where there is advice, 1 where the file has errors, 2 where it could not be read.
     """
     sources, arguments = inputs(words)
     if len(sources) != 1:

@@ -166,7 +166,7 @@ commands = click.Group("batch")
 )
 @click.argument("source", metavar="SRC", type=_PATH)
 @click.argument("dest", metavar="DEST", type=_PATH)
-@click.option("--to", "target", type=click.Choice(["sdf", "urdf"]), required=True, help="The format.")
+@click.option("--to", "target", type=click.Choice(["sdf", "urdf", "mjcf"]), required=True, help="The format.")
 @consumers_option
 @keep_physics_option
 @request_options
@@ -189,7 +189,7 @@ def convert(
     ctx: click.Context,
     source: Path,
     dest: Path,
-    target: Literal["sdf", "urdf"],
+    target: Literal["sdf", "urdf", "mjcf"],
     *,
     profiles: tuple[Profile, ...],
     keep_physics: bool,
@@ -210,6 +210,8 @@ def convert(
     from, and its result are what they were. Exit code: 0 without errors, 1 with errors, 2 where a file could not be
     read or written, 130 after Ctrl-C.
     """
+    if split and target == "mjcf":
+        raise click.UsageError("--split makes a file of every model, URDF or SDF")
     if target != "sdf":
         request["sdf_version"] = None
     policy = policy_of(ctx)

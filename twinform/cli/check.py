@@ -92,10 +92,10 @@ def command(
 ) -> None:
     """Find everything that is wrong with robot models.
 
-    IN are URDF, SDF, xacro or JSON files, files that name the parts of a robot (SRDF, and YAML for controllers, MoveIt
-    and Nav2), folders of them, or globs in quotes; - is standard input. Arguments of xacro are written NAME:=VALUE. The
-    nearest twinform.toml of each file has its settings. Exit code: 0 without errors, 1 with errors, 2 where a file that
-    is named cannot be opened.
+    IN are URDF, SDF, MJCF, xacro or JSON files, files that name the parts of a robot (SRDF, and YAML for controllers,
+    MoveIt and Nav2), folders of them, or globs in quotes; - is standard input. Arguments of xacro are written
+    NAME:=VALUE. The nearest twinform.toml of each file has its settings. Exit code: 0 without errors, 1 with errors, 2
+    where a file that is named cannot be opened.
     """
     # How a file is read, the rules, passes and consumers depend on its configuration: `OptionsByFile` has them.
     exclusion = partial(exclusion_of, ctx, exclude, force=force_exclude)

@@ -135,10 +135,10 @@ def command(
 ) -> None:
     """Compile robot models from one format into the other.
 
-    IN are URDF, SDF, xacro or JSON files; - is standard input. Arguments of xacro are written NAME:=VALUE. All that is
-    asked for is written at once, or, where an input has an error, nothing. No file is written over one that is read.
-    Exit code: 0 without errors, 1 with errors or where --check finds a difference, 2 where a file could not be read or
-    written.
+    IN are URDF, SDF, MJCF, xacro or JSON files; - is standard input. Arguments of xacro are written NAME:=VALUE. All
+    that is asked for is written at once, or, where an input has an error, nothing. No file is written over one that is
+    read. Exit code: 0 without errors, 1 with errors or where --check finds a difference, 2 where a file could not be
+    read or written.
     """
     sources, arguments = inputs(words)
     by_file = OptionsByFile(ctx, arguments)
@@ -301,6 +301,6 @@ def _split_folder(out: str | None, target: Target | None, model: str | None, *, 
     """Return the directory for the files of a world that is split."""
     if in_place or out is None or out == "-" or (Path(out).exists() and not Path(out).is_dir()):
         raise click.UsageError("--split needs -o DIRECTORY")
-    if target == "json" or model is not None:
+    if target in {"json", "mjcf"} or model is not None:
         raise click.UsageError("--split makes a file of every model, URDF or SDF; leave --model out")
     return Path(out)

@@ -74,7 +74,7 @@ def command(
     """Say whether two files describe the same robot.
 
     Prints what differs, where and by how much; what is carried, which means that only a carrier or <gazebo> says it,
-    and other readers see two robots; and notes on what is only written in another way. A and B are URDF, SDF,
+    and other readers see two robots; and notes on what is only written in another way. A and B are URDF, SDF, MJCF,
     xacro or JSON files, mixed as it comes, or USD, which no other command reads; - is standard input. Arguments of
     xacro are written NAME:=VALUE. Exit code: 0 the same robot, 1 another one, 2 where a file could not be read or has
     errors.

@@ -269,12 +269,12 @@ def command(
 ) -> None:
     """Fix robot models in their files, and run passes on them.
 
-    IN are URDF, SDF or xacro files, folders of them, or globs in quotes; - is standard input, which goes to standard
-    output. Passes are for files without xacro; fixes of xacro are made where the text is written, in all files of it.
-    Only what a fix or a pass changes is changed: comments, layout and the spelling of all else stay. Where a pass
-    renames, files that name the parts follow: SRDF, and parameters of controllers, MoveIt and Nav2. All is written, or,
-    where a pass cannot run, nothing. Exit code: 0 where all went well, 1 with errors, 2 where a file could not be read
-    or written.
+    IN are URDF, SDF, MJCF or xacro files, folders of them, or globs in quotes; - is standard input, which goes to
+    standard output. Passes are for URDF and SDF without xacro; fixes of xacro are made where the text is written, in
+    all files of it. Only what a fix or a pass changes is changed: comments, layout and the spelling of all else stay.
+    Where a pass renames, files that name the parts follow: SRDF, and parameters of controllers, MoveIt and Nav2. All is
+    written, or, where a pass cannot run, nothing. Exit code: 0 where all went well, 1 with errors, 2 where a file could
+    not be read or written.
     """
     kind = is_plain if passes else is_fixable
     sources, arguments = model_inputs(words, exclusion_of(ctx, exclude, force=force_exclude), kind)

@@ -166,9 +166,9 @@ def command(
 ) -> None:
     """Format the text of models, and change nothing else.
 
-    IN are URDF, SDF, xacro and other XML files, folders of them, or globs in quotes, and are written anew where they
-    change; - is standard input, which goes to standard output. Comments and texts, and what they mean, stay as they
-    are. The nearest twinform.toml of each file says how. Exit code: 0 formatted, 1 with --check or --diff where
+    IN are URDF, SDF, MJCF, xacro and other XML files, folders of them, or globs in quotes, and are written anew where
+    they change; - is standard input, which goes to standard output. Comments and texts, and what they mean, stay as
+    they are. The nearest twinform.toml of each file says how. Exit code: 0 formatted, 1 with --check or --diff where
     something would change, 2 where a file could not be read or written, or is no XML.
     """
     contexts = ContextByFile(ctx)

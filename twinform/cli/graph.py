@@ -48,9 +48,9 @@ def command(
     """Draw the links and joints of a model or world.
 
     Nested models and the models of a world are in clusters, types and limits of joints in their labels. What is named
-    and not there is drawn too, dashed, so that a broken model can be looked at. IN is a URDF, SDF, xacro or JSON file;
-    - is standard input. Arguments of xacro are written NAME:=VALUE. Exit code: 0 without errors, 1 where the file has
-    errors, 2 where it could not be read.
+    and not there is drawn too, dashed, so that a broken model can be looked at. IN is a URDF, SDF, MJCF, xacro or JSON
+    file; - is standard input. Arguments of xacro are written NAME:=VALUE. Exit code: 0 without errors, 1 where the file
+    has errors, 2 where it could not be read.
     """
     sources, arguments = inputs(words)
     if len(sources) != 1:

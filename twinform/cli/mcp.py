@@ -24,9 +24,9 @@ EXAMPLES = {
     "For the files below another one": "twinform mcp models",
 }
 _INSTRUCTIONS = """\
-Tools for robot models in URDF, SDF and xacro. `check` says what is wrong with a file, at which line and column. `fix` \
-shows what would fix it, and changes the file with write=true. Where it offers nothing, `explain` says what a rule \
-wants, and `schema` what may stand in an element. After an edit, check the file again."""
+Tools for robot models in URDF, SDF, MJCF and xacro. `check` says what is wrong with a file, at which line and \
+column. `fix` shows what would fix it, and changes the file with write=true. Where it offers nothing, `explain` says \
+what a rule wants, and `schema` what may stand in an element. After an edit, check the file again."""
 
 
 @click.command("mcp", cls=Command, examples=EXAMPLES)

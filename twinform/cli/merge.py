@@ -59,9 +59,9 @@ def command(
     """Merge the edits of two people in a model file.
 
     BASE is the file that both started with. The result is OURS with the changes between BASE and THEIRS: URDF, SDF,
-    xacro or other XML, merged by elements and attributes and not by lines. With the NAME of the file in the repository,
-    as git gives it to a merge driver, the result is written into OURS. Exit code: 0 merged, 1 with conflicts, which
-    stand between the markers of git, 2 where a file could not be read or written.
+    MJCF, xacro or other XML, merged by elements and attributes and not by lines. With the NAME of the file in the
+    repository, as git gives it to a merge driver, the result is written into OURS. Exit code: 0 merged, 1 with
+    conflicts, which stand between the markers of git, 2 where a file could not be read or written.
     """
     if install:
         if files or output:
@@ -118,7 +118,7 @@ def find_problems(text: SourceText, name: str) -> Iterator[Problem]:
             yield Problem((found.rule.name, found.message), found.message, lines.start(line))
 
 
-_PATTERNS = ("*.urdf", "*.sdf", "*.world", "*.xacro")
+_PATTERNS = ("*.urdf", "*.sdf", "*.world", "*.mjcf", "*.xacro")
 _ATTRIBUTES = "merge=twinform diff=twinform"
 
 

@@ -32,7 +32,9 @@ from twinform.server.checking import EditorSettings
 from twinform.server.element_facts import element_facts
 
 Answer = dict[str, Any]
-ModelPath = Annotated[str, Field(description="A URDF, SDF or xacro file below the root, such as urdf/robot.urdf.")]
+ModelPath = Annotated[
+    str, Field(description="A URDF, SDF, MJCF or xacro file below the root, such as urdf/robot.urdf.")
+]
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,7 +45,9 @@ class ModelTools:
 
     def check(
         self,
-        path: Annotated[str, Field(description="URDF, SDF, xacro, or SRDF and YAML that name the parts of a robot.")],
+        path: Annotated[
+            str, Field(description="URDF, SDF, MJCF, xacro, or SRDF and YAML that name the parts of a robot.")
+        ],
     ) -> Answer:
         """Find all that is wrong with a model file: rule, line, column, what was found and expected, and a fix."""
         name, settings = self._named(path)
@@ -96,7 +100,7 @@ class ModelTools:
         sdf_version: Annotated[str, Field(description="The version of SDF to write, such as 1.9.")] = "",
         passes: Annotated[str, Field(description="Passes to run before, such as 'fill-limits{effort=100}'.")] = "",
     ) -> Answer:
-        """Convert a model file to URDF or SDF, and list what the result does not express as the source did."""
+        """Convert a model file to URDF, SDF or MJCF, and list what the result does not express as the source did."""
         name, settings = self._named(path)
         place = self._place_of(output, to) if output else None
         asked: RequestOptions = {

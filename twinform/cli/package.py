@@ -123,11 +123,11 @@ def command(
 ) -> None:
     """Put a model and all its files into a folder.
 
-    IN is a URDF, SDF, xacro or JSON file. Its meshes, textures and scripts, and what these name themselves, are copied
-    into DIR, each once, and all URIs lead there. Of a world, each model gets a folder. Who made the model, its license
-    and its version are those of the package.xml or model.config around IN, where no option says it. The folder is
-    written at once, or, where there is an error, not at all. Exit code: 0 without errors, 1 with errors, 2 where a file
-    could not be read or written.
+    IN is a URDF, SDF, MJCF, xacro or JSON file. Its meshes, textures and scripts, and what these name themselves, are
+    copied into DIR, each once, and all URIs lead there. Of a world, each model gets a folder. Who made the model, its
+    license and its version are those of the package.xml or model.config around IN, where no option says it. The folder
+    is written at once, or, where there is an error, not at all. Exit code: 0 without errors, 1 with errors, 2 where a
+    file could not be read or written.
     """
     sources, arguments = inputs(words)
     if len(sources) > 1:

@@ -25,7 +25,9 @@ EXAMPLES = {
 
 
 @click.command("schema", cls=Command, examples=EXAMPLES)
-@click.argument("language", metavar="urdf|sdf|json|config", type=click.Choice(["urdf", "sdf", "json", "config"]))
+@click.argument(
+    "language", metavar="urdf|sdf|mjcf|json|config", type=click.Choice(["urdf", "sdf", "mjcf", "json", "config"])
+)
 @click.option("--version", metavar="V", help="The version of the format; the newest where it is not given.")
 @click.option(
     "--xsd",
@@ -49,7 +51,7 @@ EXAMPLES = {
 @click.pass_context
 def command(
     ctx: click.Context,
-    language: Literal["urdf", "sdf", "json", "config"],
+    language: Literal["urdf", "sdf", "mjcf", "json", "config"],
     version: str | None,
     xsd: Literal["1.0", "1.1"],
     *,
@@ -57,17 +59,17 @@ def command(
     xacro: bool,
     output: Path,
 ) -> None:
-    """Print the schema of URDF, SDF, JSON or the configuration.
+    """Print the schema of URDF, SDF, MJCF, JSON or the configuration.
 
-    That of URDF and SDF is an XML schema, those of documents as JSON and of twinform.toml are JSON Schemas. XML schemas
-    are strict: they take the syntax of one version. A lenient one is for editors of files that are not. In XSD 1.0 it
-    takes no elements that it does not know; in XSD 1.1 it does. For xacro files, the schemas of xacro's own elements
-    are written beside it.
+    That of URDF, SDF and MJCF is an XML schema, those of documents as JSON and of twinform.toml are JSON Schemas. XML
+    schemas are strict: they take the syntax of one version. A lenient one is for editors of files that are not. In XSD
+    1.0 it takes no elements that it does not know; in XSD 1.1 it does. For xacro files, the schemas of xacro's own
+    elements are written beside it.
     """
     asked = ctx.get_parameter_source("xsd") is ParameterSource.COMMANDLINE
     if language in {"json", "config"}:
         if version is not None or asked or lenient or xacro:
-            raise click.UsageError("--version, --xsd, --lenient and --xacro are for urdf and sdf")
+            raise click.UsageError("--version, --xsd, --lenient and --xacro are for urdf, sdf and mjcf")
         _write({output: _json_schema(language)})
         return
     facts = table(language)
@@ -75,6 +77,8 @@ def command(
         raise Unusable(f"{language.upper()} has no version {version!r}; it has {', '.join(facts.versions)}")
     wanted = parse_version(version) if version else facts.newest
     if xacro:
+        if language == "mjcf":
+            raise click.UsageError("--xacro is for urdf and sdf")
         if xsd == "1.1":
             raise click.UsageError("--xacro has XSD 1.0, which editors read")
         _write(_for_xacro(language, wanted, output))

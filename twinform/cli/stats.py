@@ -34,9 +34,9 @@ def command(
     """Print in numbers what models are made of.
 
     Prints, for each model of each file, links, joints, degrees of freedom, mass, shapes, what meshes and sensors cost,
-    plugins, and which passes would make it cheaper. IN are URDF, SDF, xacro or JSON files; - is standard input.
-    Arguments of xacro are written NAME:=VALUE.
-    Exit code: 0 without errors, 1 where a file has errors, 2 where one could not be read.
+    plugins, and which passes would make it cheaper. IN are URDF, SDF, MJCF, xacro or JSON files; - is standard input.
+    Arguments of xacro are written NAME:=VALUE. Exit code: 0 without errors, 1 where a file has errors, 2 where one
+    could not be read.
     """
     sources, arguments = inputs(words)
     load_options, code = load_options_of(arguments, reading), 0

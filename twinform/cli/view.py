@@ -53,8 +53,8 @@ def command(
 
     Shows visuals, collisions, frames, joint axes and limits, masses and sensors, with a slider for each joint, the
     tree, and what was found, on the part that it is about. Until Ctrl-C a server on this machine alone listens. A and B
-    are URDF, SDF, xacro or JSON files; - is standard input. Arguments of xacro are written NAME:=VALUE. Exit code: 0,
-    or 2 where a file could not be read.
+    are URDF, SDF, MJCF, xacro or JSON files; - is standard input. Arguments of xacro are written NAME:=VALUE. Exit
+    code: 0, or 2 where a file could not be read.
     """
     sources, arguments = inputs(words)
     if len(sources) > _MOST:

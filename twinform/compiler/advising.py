@@ -277,14 +277,15 @@ def advise(
         raise loaded.error()
     macros = loaded.path.lower().endswith(XACRO) or bool(loaded.origins)
     other = document.format.counterpart
+    converted = partial(converted_form, source, loaded.path, load_options=load_options, model=model)
     forms = {
-        document.format: own_form(loaded, document),
-        other: converted_form(source, loaded.path, other, load_options, model),
+        document.format: converted(document.format) if loaded.is_mjcf else own_form(loaded, document),
+        other: converted(other),
     }
     return Advice(
         loaded.path,
-        document.format,
-        document.version,
+        loaded.format or document.format,
+        None if loaded.is_mjcf else document.version,
         next((each.name for each in (*document.models, *document.worlds)), ""),
         choose(Facts(document, forms, macros)),
         forms[other],

@@ -51,7 +51,7 @@ def unread(profile: Profile, format_: Format | None, path: str) -> Diagnostic:
 
 
 def _format(loaded: LoadResult) -> Format | None:
-    if loaded.document is not None:
-        return loaded.document.format
+    if loaded.format is not None:
+        return loaded.format
     root = str(loaded.tree.tag) if loaded.tree is not None else ""
     return _FORMATS.get(root)

@@ -330,8 +330,8 @@ def measure(loaded: LoadResult, document: Document, search: SearchPath, *, meshe
     )
     return FileStatistics(
         path=loaded.path,
-        format=document.format,
-        version=document.version,
+        format=loaded.format or document.format,
+        version=None if loaded.is_mjcf else document.version,
         worlds=worlds,
         models=counted(whole.models),
     )

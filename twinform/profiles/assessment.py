@@ -166,6 +166,8 @@ def _assess_for(
 ) -> Assessment:
     if subject.format is not None and subject.format not in profile.formats:
         return Assessment(profile, reads=False)
+    if subject.format is Format.MJCF:  # rows are about what URDF and SDF say, and MuJoCo reads MJCF as it is
+        return Assessment(profile, reads=True)
     judgments = (*_judge(profile, found, subject.format), *shortfalls.of(profile))
     return Assessment(profile, reads=True, judgments=judgments)
 

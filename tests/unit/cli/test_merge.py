@@ -107,7 +107,7 @@ def test_git_merges_models_with_the_driver(run: Run) -> None:
     assert run("merge", "--install").exit_code == 0
     assert run("merge", "--install").exit_code == 0
     lines = Path(".gitattributes").read_text().splitlines()
-    assert (lines[0], len(lines), lines.count("*.urdf merge=twinform diff=twinform")) == ("*.png binary", 5, 1)
+    assert (lines[0], len(lines), lines.count("*.urdf merge=twinform diff=twinform")) == ("*.png binary", 6, 1)
     _commit(OURS, "ours")
     _git("merge", "theirs")
     assert Path("r.urdf").read_text() == BOTH

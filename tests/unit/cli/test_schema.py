@@ -61,12 +61,13 @@ def test_a_schema_that_would_be_written_over_is_an_error(run: Run, tmp_path: Pat
 
 WRONG = [
     "sdf --version 9.9",
-    "mjcf",
+    "usd",
     "",
     "json --version 1",
     "json --lenient",
     "json --xsd 1.0",
     "json --xacro -o a",
+    "mjcf --xacro -o a",
     "urdf --xacro",
     "urdf --xacro --xsd 1.1 -o a",
 ]

@@ -15,7 +15,7 @@ from twinform.compiler.output.source_comments import Comments
 from twinform.compiler.resolve_uris import SearchPath
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, DiagnosticSink, LedgerEntry, LineOrigins
-from twinform.ir import Document, count_parts
+from twinform.ir import Document, Format, count_parts
 from twinform.option import Option, given
 from twinform.schemas import DEFAULT_SDF_VERSION, Engine, XmlElement
 from twinform.schemas.messages import StandIn
@@ -235,6 +235,11 @@ class LoadResult:
     def is_mjcf(self) -> bool:
         """Whether the text is MJCF: the document of it is in the terms of SDF."""
         return self.content is not None and root_name(self.content[:ENOUGH]) == b"mujoco"
+
+    @property
+    def format(self) -> Format | None:
+        """The format of the text; None where there is no document."""
+        return Format.MJCF if self.is_mjcf else self.document.format if self.document is not None else None
 
     def sink(self, *, strict: bool) -> DiagnosticSink:
         """Make a sink with what was found so far, to which a conversion adds."""
