@@ -12,6 +12,7 @@ from twinform.compiler.input.mjcf.one_model import one_model
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document, Format, Frame, Joint, Link, Model, Node, World
 from twinform.ir.frames import WORLD
+from twinform.ir.element import Namespaces
 from twinform.ir.scopes import SCOPE
 from twinform.passes.carriers.annotations import (
     FROM,
@@ -22,6 +23,8 @@ from twinform.passes.carriers.annotations import (
     without_annotation,
     without_synthesized,
 )
+from twinform.passes.carriers.carriers import NAMESPACE
+from twinform.passes.carriers.carriers import PREFIX as TF
 from twinform.passes.carriers.mjcf_texts import DOCUMENT, PREFIXES
 from twinform.passes.carriers.partial_nodes import Merging, written_name
 from twinform.passes.legalise.changed_names import NAME, Names, renamed
@@ -161,7 +164,15 @@ class _Merged:
             document = document.copy(worlds=(self._as_world(model, self.world),))
         if self.around is not None:
             document = self.merging.merge(document, without_annotation(self.around, FROM, PREFIXES))
-        return document
+        return document.copy(namespaces=self._namespaces())
+
+    def _namespaces(self) -> Namespaces:
+        """The prefixes of the source, and ours."""
+        name = f"{{{NAMESPACE}}}{PREFIXES}"
+        parts = self.around.opaque if self.around else ()
+        found = [part.element for part in parts if part.element and part.element.name == name]
+        theirs = ((each.get("prefix") or "", each.get("uri") or "") for each in found)
+        return (*((prefix, uri) for prefix, uri in theirs if uri and prefix != TF), (TF, NAMESPACE))
 
     def _as_world(self, model: Model, partial: World) -> World:
         lowered = self.lowered.worlds[0] if self.lowered.worlds else World.unchecked(name=partial.name)
