@@ -32,8 +32,11 @@ _LOOSE = (Axis, Dynamics, Limit, Surface)
 """Groups of values, of which each counts for itself: the others may go."""
 Notes = Callable[[Node], tuple[Opaque, ...]]
 """Returns annotations on how the source wrote a node that the target writes otherwise."""
-Said = Callable[[Node], frozenset[str] | None]
-"""Tells which fields of a node a target says; None where it says nothing of the node, not even that it is there."""
+Said = Callable[[Node], frozenset[str] | Node | None]
+"""Tells which fields of a node a target says, or else what it leaves of the node.
+
+None where it says nothing of the node, not even that it is there.
+"""
 
 
 def _no_notes(_node: Node) -> tuple[Opaque, ...]:
@@ -43,8 +46,11 @@ def _no_notes(_node: Node) -> tuple[Opaque, ...]:
 def remainder(node: AnyNode, said: Said, notes: Notes = _no_notes) -> AnyNode | None:
     """The partial node with what a target leaves unsaid, and with the notes on it; None where it says everything."""
     fields = said(node)
-    if fields is None:
+    if fields is None or fields is node:
         return node
+    if isinstance(fields, Node):
+        left = cast("AnyNode", fields).copy(opaque=(*notes(node), *fields.opaque))
+        return with_annotation(left, REST) if _has_content(left) else None
     more = notes(node)
     update: dict[str, object] = {"opaque": (*more, *node.opaque)} if more else {}
     is_said = EXISTENCE in fields

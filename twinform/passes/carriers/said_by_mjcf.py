@@ -17,49 +17,81 @@ from twinform.ir import (
     Ellipsoid,
     Frame,
     Geometry,
+    Heightmap,
     Inertia,
     Inertial,
     Joint,
-    Light,
     Limit,
     Link,
-    Material,
     Mesh,
     Mimic,
     Model,
     Node,
     Plane,
     Sphere,
-    Surface,
     Visual,
     World,
 )
+from twinform.ir.defaults import UNLIMITED
+from twinform.passes.carriers.token_mass import is_chain_token, is_token
 
 _NONE: frozenset[str] = frozenset()
 
 
 def said_by_mjcf(node: Node) -> frozenset[str] | None:
-    """The fields of a node that MJCF says; None where it says nothing of it."""
+    """The fields of a node that MJCF says, wherever it is; None where it says nothing of it."""
     found = _SAID.get(type(node))
     return found(node) if callable(found) else found
 
 
+def said_of_limit(limit: Limit, joint: Joint) -> frozenset[str]:
+    """The fields of the limit of a joint that MJCF says: what is no limit has no words there.
+
+    A joint that can only be at one position has a narrow range instead.
+    """
+    found: set[str] = set()
+    if joint.type in _LIMITED and limit.lower != limit.upper and not _is_reversed(limit):
+        found |= {"lower", "upper"}
+    if limit.effort is not None and 0.0 < limit.effort < UNLIMITED:
+        found.add("effort")
+    return frozenset(found)
+
+
+_LIMITED = frozenset({"revolute", "prismatic", "universal", "revolute2", "screw"})
+
+
+def _is_reversed(limit: Limit) -> bool:
+    return limit.lower is not None and limit.upper is not None and limit.lower > limit.upper
+
+
 def _of_shape(node: Node) -> frozenset[str] | None:
-    shape = node.geometry.shape if isinstance(node, Visual | Collision) and node.geometry else None
-    return _fields("name pose") if shape is not None and type(shape) in _SHAPES else None
+    return _fields("name pose") if isinstance(node, Visual | Collision) and node.geometry else None
+
+
+def _of_geometry(node: Node) -> frozenset[str] | None:
+    """Whether a shape is one of MJCF; what a mesh stands for is restored by a note on the visual or collision."""
+    shape = node.shape if isinstance(node, Geometry) else None
+    return _NONE if shape is None or type(shape) in _SHAPES else _fields("shape")
 
 
 def _of_inertial(node: Node) -> frozenset[str] | None:
-    is_written = isinstance(node, Inertial) and not node.auto and node.mass is not None
-    return _fields("pose mass") if is_written else None
+    if not isinstance(node, Inertial) or node.auto or is_token(node) or is_chain_token(node):
+        return None
+    return _fields("pose mass")
 
 
 def _of_joint(node: Node) -> frozenset[str] | None:
     if not isinstance(node, Joint):
         return None
     if node.type == "fixed":  # a body in a body, without a joint that could have a name
-        return frozenset({"name", "parent"})
+        return _fields("name parent")
     return _fields("name parent child pose")
+
+
+def _of_dynamics(node: Node) -> frozenset[str] | None:
+    has_spring = isinstance(node, Dynamics) and bool(node.spring_stiffness)
+    said = _fields("damping friction spring_stiffness")
+    return said | {"spring_reference"} if has_spring else said
 
 
 def _fields(names: str) -> frozenset[str]:
@@ -71,6 +103,7 @@ _SHAPES: Mapping[type[Node], frozenset[str]] = {
     Capsule: _fields("radius length"),
     Cylinder: _fields("radius length"),
     Ellipsoid: _fields("radii"),
+    Heightmap: _fields("uri"),
     Mesh: _fields("uri scale"),
     Plane: _fields("normal size"),
     Sphere: _fields("radius"),
@@ -85,14 +118,11 @@ _SAID: Mapping[type[Node], frozenset[str] | Callable[[Node], frozenset[str] | No
     Inertia: _fields("ixx ixy ixz iyy iyz izz"),
     Visual: _of_shape,
     Collision: _of_shape,
-    Geometry: _NONE,
-    Material: _fields("diffuse"),
-    Surface: _fields("mu"),
+    Geometry: _of_geometry,
     Joint: _of_joint,
     Axis: _fields("xyz"),
     Limit: _fields("lower upper effort"),
-    Dynamics: _fields("damping friction spring_reference spring_stiffness"),
-    Mimic: _fields("joint multiplier offset"),
+    Dynamics: _of_dynamics,
+    Mimic: _fields("joint multiplier offset reference axis"),
     Frame: _fields("name attached_to pose"),
-    Light: _NONE,
 }

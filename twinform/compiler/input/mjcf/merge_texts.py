@@ -11,8 +11,8 @@ from twinform.compiler.input.mjcf.joined_joints import join_joints
 from twinform.compiler.input.mjcf.one_model import one_model
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document, Format, Frame, Joint, Link, Model, Node, World
-from twinform.ir.frames import WORLD
 from twinform.ir.element import Namespaces
+from twinform.ir.frames import WORLD
 from twinform.ir.scopes import SCOPE
 from twinform.passes.carriers.annotations import (
     FROM,

@@ -10,13 +10,28 @@ Poses and axes are in the file, so only their frame and notation are in a text. 
 from functools import cached_property
 
 from twinform.diagnostics import DiagnosticSink, rules
-from twinform.ir import Collision, Document, Format, Frame, Joint, Link, Model, Node, Opaque, Pose, Visual, World
+from twinform.ir import (
+    Axis,
+    Collision,
+    Document,
+    Format,
+    Frame,
+    Joint,
+    Limit,
+    Link,
+    Model,
+    Node,
+    Opaque,
+    Pose,
+    Visual,
+    World,
+)
 from twinform.ir.frames import MODEL, WORLD
-from twinform.passes.carriers.annotations import FROM, annotation, came_from
+from twinform.passes.carriers.annotations import FROM, annotation, came_from, is_synthesized
 from twinform.passes.carriers.carriers import NAMESPACE
 from twinform.passes.carriers.mjcf_texts import DOCUMENT, PREFIXES, bare_xml, text_element, text_name, xml_data
 from twinform.passes.carriers.partial_nodes import REST, WRITTEN, remainder
-from twinform.passes.carriers.said_by_mjcf import said_by_mjcf
+from twinform.passes.carriers.said_by_mjcf import said_by_mjcf, said_of_limit
 from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext
 from twinform.passes.legalise.to_urdf.express_axes import ExpressAxes
 from twinform.passes.legalise.to_urdf.flatten_for_urdf import flat_model
@@ -28,6 +43,8 @@ from twinform.schemas import XmlElement
 _MARK = f"{{{NAMESPACE}}}{REST}"
 _GROUPS = frozenset({"axis", "axis2", "limit", "dynamics", "surface"})
 """Elements that only group others: what is in them counts, and not they themselves."""
+_DIRECTED = frozenset({"revolute", "continuous", "prismatic", "universal", "revolute2", "screw"})
+"""The types of joints whose axes MJCF says."""
 Shape = Visual | Collision
 Names = dict[tuple[type[Shape], str, str | None], str]
 """The names in MJCF of visuals and collisions, by the scoped name of the link and their own."""
@@ -47,6 +64,11 @@ def add_texts(context: MjcfContext) -> None:
             texts.add(kind, each.name, each)
 
 
+def _only_holds(joint: Joint) -> bool:
+    """Whether a joint was made for a static model alone, whose bodies have none."""
+    return joint.type == "fixed" and joint.parent == WORLD and is_synthesized(joint)
+
+
 class _Texts:
     """Makes the texts of one file. All names are scoped names: the models have been flattened."""
 
@@ -55,6 +77,7 @@ class _Texts:
         holder = context.holder
         self.is_back = isinstance(holder, Model) and came_from(holder, Format.URDF)
         self.around = ""
+        self.joint: Joint | None = None
         self.geoms = self._written_geoms()
 
     @cached_property
@@ -88,6 +111,7 @@ class _Texts:
     def add(self, kind: str, name: str, node: Node) -> None:
         """Add the text of a node, unless MJCF says all of it, and enter what it holds into the ledger."""
         self.around = name if kind == "link" else ""
+        self.joint = node if isinstance(node, Joint) else None
         left = remainder(node, self.said, self.notes)
         if left is None:
             return
@@ -96,17 +120,31 @@ class _Texts:
         if self.context.keeper.carriers:
             self.context.add("custom", text_element(text_name(kind, name), xml_data(xml)))
 
-    def said(self, node: Node) -> frozenset[str] | None:
-        """The fields of a node that this file says."""
+    def said(self, node: Node) -> frozenset[str] | Node | None:
+        """The fields of a node that this file says, or what its writer left of it."""
+        found = self.context.left.get(id(node))
+        if found is not None:
+            return self._without_parts(found[1]) if isinstance(found[1], World) else found[1]
+        if isinstance(node, Limit) and self.joint is not None:
+            return said_of_limit(node, self.joint)
+        if isinstance(node, Axis) and self.joint is not None and self.joint.type not in _DIRECTED:
+            return None if self.joint.type == "fixed" else frozenset()
+        if isinstance(node, Joint) and node.type == "fixed" and self.is_back:
+            return frozenset({"name", "parent", "pose"})
         if isinstance(node, Visual | Collision) and self._key(node) not in self.geoms:
             return None
         if isinstance(node, Link) and node.name not in self.context.written_bodies:
             return None
-        if isinstance(node, Joint) and node.name not in self.context.written_joints:
+        if isinstance(node, Joint) and node.name not in self.context.written_joints and not _only_holds(node):
             return None
         if isinstance(node, Frame) and node.name not in self.context.names.get("site", ()):
             return None
         return said_by_mjcf(node)
+
+    def _without_parts(self, world: World) -> World:
+        """What is left of a world, without what is flattened or has texts of its own."""
+        lights = tuple(left for each in world.lights if (left := remainder(each, self.said, self.notes)) is not None)
+        return world.copy(models=(), joints=(), frames=(), lights=lights)
 
     def notes(self, node: Node) -> tuple[Opaque, ...]:
         """The annotations on a node about its names in MJCF, and about the frames and notation of its poses."""
