@@ -9,6 +9,7 @@ from typing import TypeVar
 from twinform.compiler.input.mjcf.carried_texts import CarriedText, nodes_of, report_stale
 from twinform.compiler.input.mjcf.joined_joints import join_joints
 from twinform.compiler.input.mjcf.one_model import one_model
+from twinform.compiler.input.mjcf.usual_remainders import without_usual
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document, Format, Frame, Joint, Link, Model, Node, World
 from twinform.ir.element import Namespaces
@@ -61,7 +62,7 @@ class _Merged:
 
     def document(self) -> Document:
         """The document as it was before it was written, with all edits since."""
-        model = self._named(one_model(self.lowered))
+        model = self._named(without_usual(one_model(self.lowered)))
         model = join_joints(model, self.joints)
         model = self._merged(model)
         for stale in self.merging.stale:

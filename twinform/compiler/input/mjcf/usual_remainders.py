@@ -1,0 +1,51 @@
+"""Attributes of MJCF that are in each file that is written here, and therefore say nothing of a robot that comes back."""
+
+from collections.abc import Mapping
+from typing import TypeVar
+
+from twinform.ir import Element, Node, Opaque, replace_fields, rewrite
+from twinform.passes.carriers.carriers import NAMESPACE, bits_of_ours
+
+AnyNode = TypeVar("AnyNode", bound=Node)
+
+_KEPT = "mjcf"
+_NAME = f"{{{NAMESPACE}}}{_KEPT}"
+# The groups of visuals and collisions, and what keeps MuJoCo from giving them a mass.
+_USUAL: Mapping[str, Mapping[str, frozenset[str]]] = {
+    "compiler": {
+        "angle": frozenset({"radian"}),
+        "autolimits": frozenset({"false"}),
+        "inertiafromgeom": frozenset({"false"}),
+    },
+    "geom": {"group": frozenset({"2", "3"}), "density": frozenset({"0"})},
+}
+
+
+def without_usual(node: AnyNode) -> AnyNode:
+    """The node, and all in it, without remainders that only hold what is written for every robot."""
+    return rewrite(node, Node, _without_usual, having=bits_of_ours(_KEPT))
+
+
+def _without_usual(node: Node) -> Node:
+    if not any(_is_kept(part) for part in node.opaque):
+        return node
+    kept = [left for part in node.opaque if (left := _left_of(part)) is not None]
+    return replace_fields(node, opaque=tuple(kept))
+
+
+def _is_kept(part: Opaque) -> bool:
+    return part.element is not None and part.element.name == _NAME
+
+
+def _left_of(part: Opaque) -> Opaque | None:
+    if part.element is None or not _is_kept(part):
+        return part
+    children = tuple(left for each in part.element.children if (left := _rest_of(each)) is not None)
+    return part.copy(element=part.element.copy(children=children)) if children else None
+
+
+def _rest_of(element: Element) -> Element | None:
+    usual = _USUAL.get(element.name, {})
+    attributes = tuple(pair for pair in element.attributes if pair[1] not in usual.get(pair[0], ()))
+    is_left = bool(attributes or element.children)
+    return element.copy(attributes=attributes) if is_left else None
