@@ -40,12 +40,12 @@ def _is_kept(part: Opaque) -> bool:
 def _left_of(part: Opaque) -> Opaque | None:
     if part.element is None or not _is_kept(part):
         return part
-    children = tuple(left for each in part.element.children if (left := _rest_of(each)) is not None)
-    return part.copy(element=part.element.copy(children=children)) if children else None
+    left = _rest_of(part.element)
+    return None if left is None else part.copy(element=left)
 
 
 def _rest_of(element: Element) -> Element | None:
     usual = _USUAL.get(element.name, {})
     attributes = tuple(pair for pair in element.attributes if pair[1] not in usual.get(pair[0], ()))
-    is_left = bool(attributes or element.children)
-    return element.copy(attributes=attributes) if is_left else None
+    children = tuple(left for each in element.children if (left := _rest_of(each)) is not None)
+    return element.copy(attributes=attributes, children=children) if attributes or children else None
