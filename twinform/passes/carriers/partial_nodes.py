@@ -9,7 +9,7 @@ from collections.abc import Callable
 from dataclasses import field
 from functools import cache
 from operator import is_
-from typing import Any, TypeVar, cast
+from typing import Any, NamedTuple, TypeVar, cast
 
 from twinform.dataclass import dataclass
 from twinform.ir import Axis, Dynamics, Limit, Node, Opaque, Surface
@@ -32,11 +32,17 @@ _LOOSE = (Axis, Dynamics, Limit, Surface)
 """Groups of values, of which each counts for itself: the others may go."""
 Notes = Callable[[Node], tuple[Opaque, ...]]
 """Returns annotations on how the source wrote a node that the target writes otherwise."""
-Said = Callable[[Node], frozenset[str] | Node | None]
-"""Tells which fields of a node a target says, or else what it leaves of the node.
 
-None where it says nothing of the node, not even that it is there.
-"""
+
+class Left(NamedTuple):
+    """What a writer has left of a node, of which it says these fields as well."""
+
+    node: Node
+    fields: frozenset[str] = frozenset()
+
+
+Said = Callable[[Node], frozenset[str] | Left | None]
+"""Tells which fields of a node a target says; None where it says nothing of it, not even that it is there."""
 
 
 def _no_notes(_node: Node) -> tuple[Opaque, ...]:
@@ -46,23 +52,23 @@ def _no_notes(_node: Node) -> tuple[Opaque, ...]:
 def remainder(node: AnyNode, said: Said, notes: Notes = _no_notes) -> AnyNode | None:
     """The partial node with what a target leaves unsaid, and with the notes on it; None where it says everything."""
     fields = said(node)
-    if fields is None or fields is node:
+    if fields is None:
         return node
-    if isinstance(fields, Node):
-        left = cast("AnyNode", fields).copy(opaque=(*notes(node), *fields.opaque))
-        return with_annotation(left, REST) if _has_content(left) else None
+    base = node
+    if isinstance(fields, Left):
+        base, fields = cast("AnyNode", fields.node), fields.fields
     more = notes(node)
-    update: dict[str, object] = {"opaque": (*more, *node.opaque)} if more else {}
-    is_said = EXISTENCE in fields
-    for name, value in field_values(node).items():
+    update: dict[str, object] = {"opaque": (*more, *base.opaque)} if more else {}
+    is_said = base is not node or EXISTENCE in fields
+    for name, value in field_values(base).items():
         if name in _APART or _is_unwritten(value):
             continue
-        usual = _default(node, name)
+        usual = _default(base, name)
         left = usual if name in fields else _left_of(value, said, notes, usual)
         if left is not value:
             update[name] = left
             is_said = True
-    left = node.copy(**update) if update else node
+    left = base.copy(**update) if update else base
     if not _has_content(left):
         return None
     return with_annotation(left, REST) if is_said and not isinstance(node, _LOOSE) else left

@@ -29,6 +29,7 @@ from twinform.ir import (
     Node,
     Plane,
     Sphere,
+    Surface,
     Visual,
     World,
 )
@@ -119,6 +120,7 @@ _SAID: Mapping[type[Node], frozenset[str] | Callable[[Node], frozenset[str] | No
     Visual: _of_shape,
     Collision: _of_shape,
     Geometry: _of_geometry,
+    Surface: _fields("mu"),
     Joint: _of_joint,
     Axis: _fields("xyz"),
     Limit: _fields("lower upper effort"),

@@ -30,7 +30,7 @@ from twinform.ir.frames import MODEL, WORLD
 from twinform.passes.carriers.annotations import FROM, annotation, came_from, is_synthesized
 from twinform.passes.carriers.carriers import NAMESPACE
 from twinform.passes.carriers.mjcf_texts import DOCUMENT, PREFIXES, bare_xml, text_element, text_name, xml_data
-from twinform.passes.carriers.partial_nodes import REST, WRITTEN, remainder
+from twinform.passes.carriers.partial_nodes import EXISTENCE, REST, WRITTEN, Left, remainder
 from twinform.passes.carriers.said_by_mjcf import said_by_mjcf, said_of_limit
 from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext
 from twinform.passes.legalise.to_urdf.express_axes import ExpressAxes
@@ -120,11 +120,21 @@ class _Texts:
         if self.context.keeper.carriers:
             self.context.add("custom", text_element(text_name(kind, name), xml_data(xml)))
 
-    def said(self, node: Node) -> frozenset[str] | Node | None:
-        """The fields of a node that this file says, or what its writer left of it."""
+    def said(self, node: Node) -> frozenset[str] | Left | None:
+        """The fields of a node that this file says, and what its writer left of it."""
         found = self.context.left.get(id(node))
-        if found is not None:
-            return self._without_parts(found[1]) if isinstance(found[1], World) else found[1]
+        if found is None:
+            return self._said(node)
+        left = found[1]
+        if isinstance(left, World):
+            return Left(self._without_parts(left))
+        if isinstance(left, Sensor):
+            return Left(left, frozenset({EXISTENCE}))
+        if left is node:
+            return None
+        return Left(left, said_by_mjcf(left) or frozenset())
+
+    def _said(self, node: Node) -> frozenset[str] | None:
         if isinstance(node, Limit) and self.joint is not None:
             return said_of_limit(node, self.joint)
         if isinstance(node, Axis) and self.joint is not None and self.joint.type not in _DIRECTED:
