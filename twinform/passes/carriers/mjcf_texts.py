@@ -24,6 +24,10 @@ DOCUMENT = "document"
 """The kind of the carrier with the format and version of the source."""
 PREFIXES = "prefix"
 """The annotation in that carrier with a namespace of the source and the prefix that it had there."""
+SHAPE_OF = "shape"
+"""The annotation on a visual or collision with the shape for which a file stands, or whose URI became a path."""
+AXES = "axes"
+"""The annotation on an inertial with the orientation of its axes, which MJCF has in the axes of the body."""
 KINDS: Mapping[str, type[Node]] = {
     DOCUMENT: Document, "world": World, "model": Model, "link": Link, "joint": Joint, "frame": Frame, "light": Light,
 }  # fmt: skip

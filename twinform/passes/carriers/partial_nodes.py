@@ -9,7 +9,7 @@ from collections.abc import Callable
 from dataclasses import field
 from functools import cache
 from operator import is_
-from typing import Any, NamedTuple, TypeVar, cast
+from typing import Any, NamedTuple, Protocol, TypeVar, cast
 
 from twinform.dataclass import dataclass
 from twinform.ir import Axis, Dynamics, Limit, Node, Opaque, Surface
@@ -88,14 +88,31 @@ def _left_of(value: object, said: Said, notes: Notes, default: object) -> object
     return value
 
 
+class Prepare(Protocol):
+    """Changes a node of a file and the partial one, before they are merged."""
+
+    def __call__(self, node: AnyNode, partial: AnyNode) -> tuple[AnyNode, AnyNode]:
+        """Return both nodes."""
+        ...
+
+
+def _as_they_are(node: AnyNode, partial: AnyNode) -> tuple[AnyNode, AnyNode]:
+    return node, partial
+
+
 @dataclass(slots=True)
 class Merging:
-    """Merges partial nodes into the nodes of a document; `stale` are those that belong to nothing any more."""
+    """Merges partial nodes into the nodes of a document; `stale` are those that belong to nothing any more.
 
+    `prepare` is asked for each pair first: which of the two gives way where both say one thing in two ways.
+    """
+
+    prepare: Prepare = _as_they_are
     stale: list[Node] = field(default_factory=list[Node])
 
     def merge(self, node: AnyNode, partial: AnyNode) -> AnyNode:
         """The node with the fields of a partial one that it has not: what it says itself always counts."""
+        node, partial = self.prepare(node, partial)
         update: dict[str, object] = {}
         for name, value in field_values(partial).items():
             if name in _APART or _is_unwritten(value):

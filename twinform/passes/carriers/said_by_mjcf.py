@@ -23,6 +23,7 @@ from twinform.ir import (
     Joint,
     Limit,
     Link,
+    Material,
     Mesh,
     Mimic,
     Model,
@@ -81,6 +82,16 @@ def _of_inertial(node: Node) -> frozenset[str] | None:
     return _fields("pose mass")
 
 
+def _of_material(node: Node) -> frozenset[str] | None:
+    """Whether a material is a color and no more; any other one is taken whole while the file shows the same look."""
+    color = node.diffuse if isinstance(node, Material) else None
+    is_color = color is not None and node == Material.unchecked(ambient=color, diffuse=color)
+    return _fields("ambient diffuse") if is_color and len(color or ()) == _WITH_ALPHA else None
+
+
+_WITH_ALPHA = 4
+
+
 def _of_joint(node: Node) -> frozenset[str] | None:
     if not isinstance(node, Joint):
         return None
@@ -120,6 +131,7 @@ _SAID: Mapping[type[Node], frozenset[str] | Callable[[Node], frozenset[str] | No
     Visual: _of_shape,
     Collision: _of_shape,
     Geometry: _of_geometry,
+    Material: _of_material,
     Surface: _fields("mu"),
     Joint: _of_joint,
     Axis: _fields("xyz"),

@@ -9,6 +9,8 @@ from typing import TypeVar
 from twinform.compiler.input.mjcf.carried_texts import CarriedText, nodes_of, report_stale
 from twinform.compiler.input.mjcf.joined_joints import join_joints
 from twinform.compiler.input.mjcf.one_model import one_model
+from twinform.compiler.input.mjcf.restore_contacts import note_contacts, settle_contacts
+from twinform.compiler.input.mjcf.spellings import with_spellings
 from twinform.compiler.input.mjcf.usual_remainders import without_usual
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document, Format, Frame, Joint, Link, Model, Node, World
@@ -33,27 +35,37 @@ from twinform.passes.legalise.to_sdf.restore_frames import RestoreFrames
 from twinform.passes.legalise.to_sdf.restore_nested import NameScopes, RestoreNested
 from twinform.passes.sdf_versions import change_version
 from twinform.passes.shared.poses import NESTED
-from twinform.schemas import DEFAULT_SDF_VERSION, versions_of
+from twinform.schemas import DEFAULT_SDF_VERSION, XmlElement, versions_of
 
 AnyPart = TypeVar("AnyPart", Link, Joint, Frame)
 _MADE_NAME = "made-name"
 
 
-def merge_texts(document: Document, texts: tuple[CarriedText, ...], sink: DiagnosticSink) -> Document:
-    """The document with what carriers hold; in the version of SDF that its source had, if that was SDF."""
-    if not texts:
+def merge_texts(document: Document, texts: tuple[CarriedText, ...], root: XmlElement, sink: DiagnosticSink) -> Document:
+    """The document of a canonical tree with what carriers hold, in the version of SDF that its source had."""
+    if not any(each.kind == DOCUMENT for each in texts):
         return document
-    return _Merged(document, texts, sink).document()
+    return _Merged(document, texts, root, sink).document()
+
+
+def _is_free(root: XmlElement) -> bool:
+    """Whether the first body of a file floats."""
+    body = root.find("worldbody/body")
+    joints = () if body is None else (*body.iterchildren("freejoint"), *body.iterchildren("joint"))
+    return any(each.tag == "freejoint" or each.get("type") == "free" for each in joints)
 
 
 class _Merged:
     """Merges the carriers of one file."""
 
-    def __init__(self, lowered: Document, texts: tuple[CarriedText, ...], sink: DiagnosticSink) -> None:
+    def __init__(
+        self, lowered: Document, texts: tuple[CarriedText, ...], root: XmlElement, sink: DiagnosticSink
+    ) -> None:
         self.lowered = lowered
+        self.root = root
         self.texts = texts
         self.sink = sink
-        self.merging = Merging()
+        self.merging = Merging(with_spellings)
         self.links: list[Link] = [each for each in nodes_of(texts, "link") if isinstance(each, Link)]
         self.joints: list[Joint] = [each for each in nodes_of(texts, "joint") if isinstance(each, Joint)]
         self.frames: list[Frame] = [each for each in nodes_of(texts, "frame") if isinstance(each, Frame)]
@@ -62,7 +74,9 @@ class _Merged:
 
     def document(self) -> Document:
         """The document as it was before it was written, with all edits since."""
-        model = self._named(without_usual(one_model(self.lowered)))
+        model = without_usual(one_model(self.lowered, is_free=_is_free(self.root)))
+        model = note_contacts(model, self.root).copy(self_collide=None)
+        model = self._named(model)
         model = join_joints(model, self.joints)
         model = self._merged(model)
         for stale in self.merging.stale:
@@ -158,11 +172,12 @@ class _Merged:
 
     def _as_document(self, model: Model) -> Document:
         newest = versions_of("sdf")[-1]
-        document = Document.unchecked(format=Format.SDF, version=newest, source=self.lowered.source)
-        if self.world is None:
-            document = document.copy(models=(model,))
-        else:
-            document = document.copy(worlds=(self._as_world(model, self.world),))
+        # A document of MJCF keeps the defaults of MJCF, and this one was of SDF.
+        source = self.lowered.source and self.lowered.source._replace(step="sdf")
+        document = Document.unchecked(format=Format.SDF, version=newest, source=source)
+        holder = settle_contacts(model if self.world is None else self._as_world(model, self.world))
+        parts = {"models": (holder,)} if isinstance(holder, Model) else {"worlds": (holder,)}
+        document = document.copy(**parts)
         if self.around is not None:
             document = self.merging.merge(document, without_annotation(self.around, FROM, PREFIXES))
         return document.copy(namespaces=self._namespaces())

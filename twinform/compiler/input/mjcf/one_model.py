@@ -1,16 +1,17 @@
 """The trees of a file of MJCF as one model: what was one model before it was written, and has several roots."""
 
+from twinform.compiler.input.mjcf.remainders import SAME_GEOM
 from twinform.ir import Document, Frame, Joint, Link, Model, Opaque, Pose, World, rewrite
 from twinform.ir.frames import WORLD
 from twinform.ir.transform import Transform
-from twinform.passes.carriers.annotations import annotate_synthesized
+from twinform.passes.carriers.annotations import annotate_synthesized, find_annotation
 from twinform.passes.shared.nodes import reserve_name
 
 
-def one_model(document: Document) -> Model:
+def one_model(document: Document, *, is_free: bool) -> Model:
     """The links, joints and frames of all models of a document in one, whose frame is that of the world.
 
-    A static tree hangs from the world by a fixed joint that is annotated as made. All orientations are roll, pitch and
+    A static tree, and the only one unless it `is_free`, hangs from the world by a fixed joint that is annotated as made. All orientations are roll, pitch and
     yaw; a quaternion comes back where a carrier says so.
     """
     world = document.worlds[0] if document.worlds else None
@@ -24,7 +25,8 @@ def one_model(document: Document) -> Model:
         children = {joint.child for joint in each.joints}
         roots = [link for link in each.links if link.name not in children]
         links += [_placed(link, each.pose) if link in roots else link for link in each.links]
-        joints += [_held(link, taken) for link in roots if each.static]
+        if each.static or not (world or is_free):
+            joints += [_held(link, taken) for link in roots]
         joints += each.joints
         frames += each.frames
         opaque += each.opaque
@@ -38,7 +40,14 @@ def one_model(document: Document) -> Model:
         opaque=tuple(opaque),
         source=source,
     )
-    return rewrite(model, Pose, _in_rpy)
+    return rewrite(rewrite(model, Pose, _in_rpy), Link, _with_shapes_apart)
+
+
+def _with_shapes_apart(link: Link) -> Link:
+    """A link whose collisions are only seen where a visual says so: what is written has a geom for each."""
+    if all(find_annotation(each, SAME_GEOM) is None for each in link.visuals):
+        return link
+    return link.copy(visuals=tuple(each for each in link.visuals if find_annotation(each, SAME_GEOM) is None))
 
 
 def _is_written_world(world: World) -> bool:

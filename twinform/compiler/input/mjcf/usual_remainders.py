@@ -1,4 +1,4 @@
-"""Attributes of MJCF that are in each file that is written here, and therefore say nothing of a robot that comes back."""
+"""Attributes of MJCF that are in every file which is written here, and say nothing of a robot that comes back."""
 
 from collections.abc import Mapping
 from typing import TypeVar
@@ -18,6 +18,7 @@ _USUAL: Mapping[str, Mapping[str, frozenset[str]]] = {
         "inertiafromgeom": frozenset({"false"}),
     },
     "geom": {"group": frozenset({"2", "3"}), "density": frozenset({"0"})},
+    "site": {"group": frozenset({"4"})},
 }
 
 

@@ -14,22 +14,37 @@ from twinform.ir import (
     Axis,
     Collision,
     Document,
+    Element,
     Format,
     Frame,
+    Geometry,
+    Inertial,
     Joint,
     Limit,
     Link,
+    Mesh,
     Model,
     Node,
     Opaque,
     Pose,
+    Sensor,
     Visual,
     World,
 )
 from twinform.ir.frames import MODEL, WORLD
+from twinform.ir.transform import Transform
 from twinform.passes.carriers.annotations import FROM, annotation, came_from, is_synthesized
-from twinform.passes.carriers.carriers import NAMESPACE
-from twinform.passes.carriers.mjcf_texts import DOCUMENT, PREFIXES, bare_xml, text_element, text_name, xml_data
+from twinform.passes.carriers.carriers import NAMESPACE, to_element
+from twinform.passes.carriers.mjcf_texts import (
+    AXES,
+    DOCUMENT,
+    PREFIXES,
+    SHAPE_OF,
+    bare_xml,
+    text_element,
+    text_name,
+    xml_data,
+)
 from twinform.passes.carriers.partial_nodes import EXISTENCE, REST, WRITTEN, Left, remainder
 from twinform.passes.carriers.said_by_mjcf import said_by_mjcf, said_of_limit
 from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext
@@ -38,7 +53,7 @@ from twinform.passes.legalise.to_urdf.flatten_for_urdf import flat_model
 from twinform.passes.legalise.to_urdf.resolve_joint_ends import ResolveJointEnds
 from twinform.passes.legalise.to_urdf.to_urdf_pass import UrdfKeeper
 from twinform.passes.shared.poses import OFFSET, POSE, offset_attributes, pose_attributes
-from twinform.schemas import XmlElement
+from twinform.schemas import XmlElement, format_value
 
 _MARK = f"{{{NAMESPACE}}}{REST}"
 _GROUPS = frozenset({"axis", "axis2", "limit", "dynamics", "surface"})
@@ -67,6 +82,17 @@ def add_texts(context: MjcfContext) -> None:
 def _only_holds(joint: Joint) -> bool:
     """Whether a joint was made for a static model alone, whose bodies have none."""
     return joint.type == "fixed" and joint.parent == WORLD and is_synthesized(joint)
+
+
+def _axes_note(inertial: Inertial, pose: Pose) -> list[Opaque]:
+    """The annotation of the axes of an inertia, which MJCF writes in those of the body where it has products."""
+    turn = Transform.from_pose(pose.copy(relative_to=None))
+    inertia = inertial.inertia
+    has_products = inertia is not None and any((inertia.ixy, inertia.ixz, inertia.iyz))
+    if turn.is_unturned or not has_products:
+        return []
+    rpy = " ".join(map(format_value, turn.rpy()))
+    return [annotation(AXES, attributes={"rpy": rpy})]
 
 
 class _Texts:
@@ -132,7 +158,8 @@ class _Texts:
             return Left(left, frozenset({EXISTENCE}))
         if left is node:
             return None
-        return Left(left, said_by_mjcf(left) or frozenset())
+        # A look that comes back is compared with the one that was written, and taken whole.
+        return self._said(node) if isinstance(node, Visual) else Left(left, said_by_mjcf(left) or frozenset())
 
     def _said(self, node: Node) -> frozenset[str] | None:
         if isinstance(node, Limit) and self.joint is not None:
@@ -161,6 +188,10 @@ class _Texts:
         found = [annotation(WRITTEN, attributes={"as": name}) for name in self._other_names(node)]
         if isinstance(node, Document):
             found += self._provenance(node)
+        if isinstance(node, Visual | Collision):
+            found += self._shape_note(node)
+        if isinstance(node, Inertial) and node.inertia is not None and node.pose is not None:
+            found += _axes_note(node, node.pose)
         if self.is_back:
             return tuple(found)
         if isinstance(node, Model):
@@ -197,6 +228,33 @@ class _Texts:
         else:
             return ()
         return () if names == (node.name,) else names
+
+    def _shape_note(self, part: Shape) -> list[Opaque]:
+        """The annotation of the file that stands for a shape, with the shape, or of the URI that a file had."""
+        shape = part.geometry.shape if part.geometry else None
+        geom = self.geom_elements.get(self.geoms.get(self._key(part), ""))
+        file = self._file_of(geom) if geom is not None else None
+        if shape is None or file is None or getattr(shape, "uri", None) == file:
+            return []
+        kept = shape.copy(scale=None) if isinstance(shape, Mesh) else shape
+        holder = to_element(Geometry.unchecked(shape=kept), "geometry", "sdf")
+        note = annotation(SHAPE_OF, attributes={"file": file})
+        return [note.copy(element=note.element and note.element.copy(children=holder.children))]
+
+    @cached_property
+    def geom_elements(self) -> dict[str, Element]:
+        """The geoms by their names."""
+        bodies = self.context.sections.get("worldbody", [])
+        return {each.get("name") or "": each for body in bodies for each in body.walk() if each.name == "geom"}
+
+    def _file_of(self, geom: Element) -> str | None:
+        """The file of the mesh or height field of a geom."""
+        for kind in ("mesh", "hfield"):
+            asset = geom.get(kind)
+            for each in self.context.sections.get("asset", []):
+                if asset and each.name == kind and each.get("name") == asset:
+                    return each.get("file")
+        return None
 
     def _written_geoms(self) -> Names:
         context, found = self.context, Names()

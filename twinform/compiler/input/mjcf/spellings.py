@@ -1,0 +1,138 @@
+"""Values that MJCF writes otherwise than the source: they come back as they were while they agree with the file.
+
+A look, the URI of a mesh, the axes of an inertia, the type of a joint, and the ends of a range of one position.
+What an edit has changed does not agree any more, and counts.
+"""
+
+import math
+from typing import TypeVar, cast
+
+from twinform.ir import (
+    Collision,
+    Geometry,
+    Heightmap,
+    Inertia,
+    Inertial,
+    Joint,
+    JointType,
+    Limit,
+    Mesh,
+    Node,
+    Opaque,
+    Pose,
+    Visual,
+)
+from twinform.ir.solids import tensor, turned
+from twinform.ir.transform import Transform
+from twinform.passes.carriers.absorb import CarrierError, absorb
+from twinform.passes.carriers.annotations import find_annotation, without_annotation
+from twinform.passes.carriers.mjcf_texts import AXES, SHAPE_OF
+from twinform.passes.legalise.to_mjcf.looks import Look, look
+from twinform.passes.shared.poses import read_vector
+
+AnyNode = TypeVar("AnyNode", bound=Node)
+AnyShape = TypeVar("AnyShape", Visual, Collision)
+
+_CLOSE = 2e-9
+"""How far a number may be from the one that was written: what a range of a single position is wide."""
+_ALIKE: tuple[frozenset[JointType], ...] = (
+    frozenset({"revolute", "continuous"}),
+    frozenset({"universal", "revolute2"}),
+    frozenset({"ball", "spherical"}),
+)
+"""Types of joints that are the same in MJCF."""
+
+
+def with_spellings(node: AnyNode, partial: AnyNode) -> tuple[AnyNode, AnyNode]:
+    """The node of a file and its partial node, of which the one gives way where both say the same."""
+    made: tuple[Node, Node] = (node, partial)
+    if isinstance(node, Visual) and isinstance(partial, Visual):
+        made = _with_look(*_with_shape(node, partial))
+    elif isinstance(node, Collision) and isinstance(partial, Collision):
+        made = _with_shape(node, partial)
+    elif isinstance(node, Joint) and isinstance(partial, Joint):
+        made = _with_type(node, partial), partial
+    elif isinstance(node, Limit) and isinstance(partial, Limit):
+        made = _with_ends(node, partial), partial
+    elif isinstance(node, Inertial) and isinstance(partial, Inertial):
+        made = _with_axes(node, partial), without_annotation(partial, AXES)
+    return cast("tuple[AnyNode, AnyNode]", made)
+
+
+def _with_look(node: Visual, partial: Visual) -> tuple[Visual, Visual]:
+    """The look of the source, if the file shows the same."""
+    if partial.material is None:
+        return node, partial
+    candidate = node.copy(material=partial.material, opaque=(*partial.opaque, *node.opaque))
+    if _looks_alike(look(candidate), look(node)):
+        return node.copy(material=None), partial
+    return node, partial.copy(material=None)
+
+
+def _looks_alike(one: Look, other: Look) -> bool:
+    colors = (one.rgba or (), other.rgba or ())
+    if len(colors[0]) != len(colors[1]) or not all(map(_is_close, *colors)):
+        return False
+    return len(one.images) == len(other.images)
+
+
+def _with_shape(node: AnyShape, partial: AnyShape) -> tuple[AnyShape, AnyShape]:
+    """The shape or URI for which a file stands, if it is that file still."""
+    note = find_annotation(partial, SHAPE_OF)
+    if note is None:
+        return node, partial
+    partial = without_annotation(partial, SHAPE_OF)
+    shape = node.geometry.shape if node.geometry else None
+    if not isinstance(shape, Mesh | Heightmap) or shape.uri != note.get("file"):
+        return node, partial
+    try:
+        pieces = tuple(Opaque.unchecked(element=each) for each in note.children)
+        kept = absorb(Geometry.unchecked(), pieces).shape
+    except CarrierError:
+        return node, partial
+    if isinstance(kept, Mesh) and isinstance(shape, Mesh):
+        kept = kept.copy(scale=shape.scale)
+    geometry = (node.geometry or Geometry.unchecked()).copy(shape=kept)
+    return node.copy(geometry=geometry), partial.copy(geometry=None)
+
+
+def _with_type(node: Joint, partial: Joint) -> Joint:
+    """The joint with the type of the source, if MJCF has one word for both."""
+    if node.type == partial.type or not any({node.type, partial.type} <= alike for alike in _ALIKE):
+        return node
+    limit = node.axis.limit if node.axis else None
+    is_limited = limit is not None and (limit.lower is not None or limit.upper is not None)
+    if partial.type == "continuous" and is_limited:
+        return node
+    return node.copy(type=partial.type)
+
+
+def _with_ends(node: Limit, partial: Limit) -> Limit:
+    ends = [(node.lower, partial.lower), (node.upper, partial.upper)]
+    if any(own is None or kept is None or not _is_close(own, kept) for own, kept in ends):
+        return node
+    return node.copy(lower=None, upper=None)
+
+
+def _with_axes(node: Inertial, partial: Inertial) -> Inertial:
+    """The inertial with the inertia in the axes of the source."""
+    note = find_annotation(partial, AXES)
+    if note is None or node.inertia is None or (node.pose is not None and not _is_unturned(node.pose)):
+        return node
+    try:
+        rpy = read_vector(note.get("rpy"))
+    except ValueError:
+        return node
+    turn = Transform.from_pose(Pose.unchecked(rpy=rpy))
+    xx, yy, zz, xy, xz, yz = turned(tensor(node.inertia, 0.0), turn.inverse())
+    inertia = Inertia.unchecked(ixx=xx, iyy=yy, izz=zz, ixy=xy, ixz=xz, iyz=yz, source=node.inertia.source)
+    pose = (node.pose or Pose.unchecked()).copy(rpy=rpy)
+    return node.copy(inertia=inertia, pose=pose)
+
+
+def _is_unturned(pose: Pose) -> bool:
+    return Transform.from_pose(pose.copy(relative_to=None)).is_unturned
+
+
+def _is_close(one: float, other: float) -> bool:
+    return math.isclose(one, other, rel_tol=1e-9, abs_tol=_CLOSE)
