@@ -95,7 +95,7 @@ class GeomLowering(NamedTuple):
 
     def _visual(self, one: _Named) -> Visual:
         """Return the visual of a geom; of one that touches too, the collision holds the remainder."""
-        material = lower_material(one.geom, self.assets)
+        material, pose = lower_material(one.geom, self.assets), one.pose  # before what is left of the geom
         if one.touches:
             rest = (annotation(SAME_GEOM),)
         else:
@@ -104,7 +104,7 @@ class GeomLowering(NamedTuple):
             rest = self._rest(one.geom)
         return Visual.unchecked(
             name=one.name,
-            pose=one.pose,
+            pose=pose,
             geometry=one.geometry,
             material=material,
             opaque=(*one.marks, *rest),

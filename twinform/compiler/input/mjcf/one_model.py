@@ -11,8 +11,8 @@ from twinform.passes.shared.nodes import reserve_name
 def one_model(document: Document, *, is_free: bool) -> Model:
     """The links, joints and frames of all models of a document in one, whose frame is that of the world.
 
-    A static tree, and the only one unless it `is_free`, hangs from the world by a fixed joint that is annotated as made. All orientations are roll, pitch and
-    yaw; a quaternion comes back where a carrier says so.
+    A static tree, and the only one unless it `is_free`, hangs from the world by a fixed joint that is annotated as
+    made. All orientations are roll, pitch and yaw; a quaternion comes back where a carrier says so.
     """
     world = document.worlds[0] if document.worlds else None
     models = world.models if world else document.models
