@@ -25,11 +25,11 @@ def _facet(face: tuple[int, ...]) -> str:
 
 
 STL_TEXT = f"solid t\n{''.join(map(_facet, _FACES))}endsolid t\n".encode()
-STL_BINARY = bytes(80) + struct.pack("<I", len(_FACES))
-STL_BINARY += b"".join(
+_TRIANGLES = b"".join(
     struct.pack("<12fH", 0, 0, 0, *(float(number) for each in face for number in _CORNERS[each].split()), 0)
     for face in _FACES
 )
+STL_BINARY = bytes(80) + struct.pack("<I", len(_FACES)) + _TRIANGLES
 COLLADA = f"""<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
 <asset><unit meter="0.001" name="millimeter"/><up_axis>Z_UP</up_axis></asset>
 <library_geometries><geometry id="g"><mesh>

@@ -7,13 +7,10 @@ from itertools import chain
 
 from twinform.compiler.advising import Advice, ConsumerReading
 from twinform.diagnostics.reporters import printable
-from twinform.ir import Format
 from twinform.passes import Pipeline
 from twinform.profiles import Assessment, Effect, Judgment
 from twinform.profiles.remedies import changes_physics, remedies
 
-_FORMATS = (Format.URDF, Format.SDF)
-_HEAD = ("consumer", "as URDF", "as SDF", "passes that help")
 _NOTHING = "-"
 
 
@@ -26,8 +23,9 @@ def json(advice: Advice) -> str:
     """Format advice as `{"path", "format", "version", "model", "keep", "reasons", "unsaid", "consumers"}`.
 
     `unsaid` are the parts that the other format does not express: `{"rule", "fate", "number", "example"}`. A consumer
-    is `{"name", "title", "version", "tested", "forms", "passes"}`; its `forms` are what it makes of `urdf` and `sdf`,
-    as far as it reads them: `{"verdict", "findings": [{"rule", "effect", "about", "line", "path", "message"}]}`.
+    is `{"name", "title", "version", "tested", "forms", "passes"}`; its `forms` are what it makes of `urdf`, `sdf`
+    and `mjcf`, as far as it reads them: `{"verdict", "findings": [{"rule", "effect", "about", "line", "path",
+    "message"}]}`.
     """
     whole = {
         "path": advice.path,
@@ -49,22 +47,23 @@ def _choice_lines(advice: Advice) -> Iterator[str]:
     version = f" {advice.version}" if advice.version else ""
     yield printable(f"{advice.path}: {advice.format.upper()}{version}, {advice.name!r}")
     kept = advice.choice.format
-    other = next(each for each in _FORMATS if each is not kept)
+    others = [each.upper() for each, form in advice.rivals.items() if each is not kept and form.exists]
     change = "Keep it as" if kept is advice.format else "Make it"
-    derived = f", and convert it to {other.upper()} for those who read that" if advice.other.exists else ""
+    derived = f", and convert it to {' and '.join(others)} for those who read that" if others else ""
     yield f"{change} {kept.upper()}{derived}:"
     yield from (f"  * {printable(reason)}" for reason in advice.choice.reasons)
 
 
 def _table_lines(advice: Advice) -> Iterator[str]:
-    rows = [_HEAD, *(_table_row(each, advice) for each in advice.consumers)]
+    head = ("consumer", *(f"as {each.upper()}" for each in advice.formats), "passes that help")
+    rows = [head, *(_table_row(each, advice) for each in advice.consumers)]
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     for row in rows:
         yield "  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip()
 
 
 def _table_row(reading: ConsumerReading, advice: Advice) -> tuple[str, ...]:
-    cells = (_verdict_cell(reading.forms.get(format_)) for format_ in _FORMATS)
+    cells = (_verdict_cell(reading.forms.get(format_)) for format_ in advice.formats)
     return (_label(reading), *cells, _passes_that_help(reading.best(advice.choice.format)))
 
 

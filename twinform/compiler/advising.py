@@ -1,7 +1,7 @@
-"""`twinform advise`: which format a robot is best kept in, and what each consumer makes of both.
+"""`twinform advise`: which format a robot is best kept in, and what each consumer makes of every one.
 
-The file is converted into the other format. A table of reasons, each measured on the file itself, decides which format
-it is best kept in, and the profiles of all consumers are asked about both.
+The file is converted into the other formats that consumers read. A table of reasons, each measured on the file itself,
+decides which format it is best kept in, and the profiles of all consumers are asked about each.
 """
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -15,6 +15,7 @@ from twinform.compiler.input.load_options import XACRO, Input, LoadOptions, Load
 from twinform.compiler.input.loading import read
 from twinform.compiler.inspect_for_consumers import subject_of
 from twinform.compiler.inspection import inspect
+from twinform.compiler.read_otherwise import read_otherwise
 from twinform.compiler.request import ConversionRequest
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, Fate, LedgerEntry, rules
@@ -89,12 +90,12 @@ _THE_SAME_ROBOT = frozenset(
     }
 )
 _VERSION = "/sdf/@version"
-_LANGUAGES: dict[Format, Language] = {Format.URDF: "urdf", Format.SDF: "sdf"}
+_LANGUAGES: dict[Format, Language] = {Format.URDF: "urdf", Format.SDF: "sdf", Format.MJCF: "mjcf"}
 
 
 def own_form(loaded: LoadResult, document: Document) -> Form:
     """Return the file itself as a form."""
-    return Form(document.format, loaded.content or b"")
+    return Form(loaded.format or document.format, loaded.content or b"")
 
 
 def converted_form(source: Input, name: str, to: Format, load_options: LoadOptions, model: str | None = None) -> Form:
@@ -144,15 +145,17 @@ def _total_loss(assessment: Assessment) -> tuple[int, int]:
 
 @dataclass(frozen=True, slots=True)
 class Facts:
-    """What the choice depends on: the document, both forms of it, and whether it is made by macros."""
+    """What the choice depends on: the document, its format, the forms to choose from, and whether macros make it."""
 
     document: Document
-    forms: Mapping[Format, Form]
+    own: Format
+    rivals: Mapping[Format, Form]
     macros: bool = False
 
     def losses(self, format_: Format) -> tuple[Loss, ...]:
-        """Return what a format does not express; nothing for the format of the file itself."""
-        return () if self.document.format is format_ else tuple(self.forms[format_].losses())
+        """Return what a format does not express; nothing for that of the file itself, and for one that is no choice."""
+        form = self.rivals.get(format_)
+        return () if format_ is self.own or form is None else tuple(form.losses())
 
 
 class Choice(NamedTuple):
@@ -163,22 +166,29 @@ class Choice(NamedTuple):
 
 
 class _Reason(NamedTuple):
-    """A reason for a format; its `words` are empty where it does not hold. Decisive reasons outweigh others."""
+    """A reason for a format; its `words` are empty where it does not hold. Decisive reasons outweigh others.
 
-    format: Format
+    Without a format, it is one for that of the file itself. A `told` reason is said whatever is chosen.
+    """
+
+    format: Format | None
     decisive: bool
     words: Callable[[Facts], str]
+    told: bool = False
 
 
 def choose(facts: Facts) -> Choice:
     """Choose the format of the first decisive reason that holds, or else of the first one, with all reasons for it."""
-    holding = [(each, words) for each in _REASONS if (words := each.words(facts))]
     # `min` keeps the first of equals, so the order of the table is the order of reasons.
-    first = min(holding, key=lambda one: not one[0].decisive)[0]
-    return Choice(first.format, tuple(words for each, words in holding if each.format is first.format))
+    found = [(each.format or facts.own, each, words) for each in _REASONS if (words := each.words(facts))]
+    holding = [one for one in found if one[0] in facts.rivals]
+    kept = min(holding, key=lambda one: not one[1].decisive)[0] if holding else facts.own
+    return Choice(kept, tuple(words for format_, each, words in holding if format_ is kept or each.told))
 
 
 def _is_a_scene(facts: Facts) -> str:
+    if facts.own is Format.MJCF:  # which holds worlds as well
+        return ""
     number = sum(1 for _ in candidates(facts.document))
     if facts.document.worlds:
         return f"it is a world of {_count(number, 'model')}; URDF holds one robot, and nothing around it"
@@ -186,13 +196,14 @@ def _is_a_scene(facts: Facts) -> str:
 
 
 def _cannot_be(facts: Facts, format_: Format) -> str:
+    form = facts.rivals.get(format_)
     # That several models are in a file is a reason of its own, and no fault of the model.
-    errors = [each for each in facts.forms[format_].errors if each.rule is not MODEL_NOT_CHOSEN]
+    errors = [each for each in form.errors if each.rule is not MODEL_NOT_CHOSEN] if form else []
     return f"it cannot be written as {format_.upper()}: {errors[0].message}" if errors else ""
 
 
 def _has_macros(facts: Facts) -> str:
-    return "its macros are the source, and both formats are made from them" if facts.macros else ""
+    return "its macros are the source, and other formats are made from them" if facts.macros else ""
 
 
 def _is_driven(facts: Facts) -> str:
@@ -210,6 +221,15 @@ def _is_driven(facts: Facts) -> str:
 def _is_scenery(facts: Facts) -> str:
     moves = any(isinstance(node, Joint) and node.type != "fixed" for node in walk(facts.document))
     return "" if moves else "no joint of it moves: it is a thing of a world, and no robot that ROS drives"
+
+
+def _is_read_otherwise(facts: Facts) -> str:
+    found = read_otherwise(facts.document) if Format.MJCF in facts.rivals else ()
+    return f"MuJoCo reads the URDF otherwise than the MJCF: it {', '.join(found)}" if found else ""
+
+
+def _is_mjcf(facts: Facts) -> str:
+    return "MuJoCo reads it as it is" if facts.own is Format.MJCF else ""
 
 
 def _is_a_robot(_: Facts) -> str:
@@ -234,12 +254,14 @@ def _count(number: int, word: str) -> str:
 
 _REASONS = (
     _Reason(Format.SDF, True, _is_a_scene),
-    _Reason(Format.SDF, True, partial(_cannot_be, format_=Format.URDF)),
+    *(_Reason(None, True, partial(_cannot_be, format_=each)) for each in (Format.URDF, Format.MJCF)),
     _Reason(Format.URDF, True, _has_macros),
-    _Reason(Format.URDF, True, partial(_cannot_be, format_=Format.SDF)),
-    _Reason(Format.SDF, True, partial(_losses_in, format_=Format.URDF)),
+    _Reason(None, True, partial(_cannot_be, format_=Format.SDF)),
+    _Reason(None, True, partial(_losses_in, format_=Format.URDF)),
     _Reason(Format.URDF, True, _is_driven),
-    _Reason(Format.URDF, True, partial(_losses_in, format_=Format.SDF)),
+    *(_Reason(None, True, partial(_losses_in, format_=each)) for each in (Format.SDF, Format.MJCF)),
+    _Reason(Format.MJCF, False, _is_read_otherwise, told=True),
+    _Reason(Format.MJCF, False, _is_mjcf),
     _Reason(Format.SDF, False, _is_scenery),
     _Reason(Format.URDF, False, _is_a_robot),
 )
@@ -247,15 +269,31 @@ _REASONS = (
 
 @dataclass(frozen=True, slots=True)
 class Advice:
-    """The format that a robot is best kept in and why, its other form, and what each consumer makes of both."""
+    """The format that a robot is best kept in and why, its forms, and what each consumer makes of them.
+
+    `rivals` are the forms to choose from, and `formats` all that consumers were asked about.
+    """
 
     path: str
     format: Format
     version: str | None
     name: str
     choice: Choice
-    other: Form
+    rivals: Mapping[Format, Form]
+    formats: tuple[Format, ...]
     consumers: tuple[ConsumerReading, ...]
+
+    @property
+    def other(self) -> Form:
+        """The form that the file is first made into."""
+        return next(form for format_, form in self.rivals.items() if format_ is not self.format)
+
+
+def rivals_of(own: Format, profiles: Sequence[Profile]) -> tuple[Format, ...]:
+    """Return the formats to choose from: URDF and SDF, or MJCF where all consumers read that."""
+    if profiles and all(Format.MJCF in each.formats for each in profiles):
+        return tuple(dict.fromkeys((own, Format.MJCF, Format.URDF)))
+    return tuple(dict.fromkeys((own, own.counterpart, Format.URDF, Format.SDF)))
 
 
 def advise(
@@ -272,24 +310,27 @@ def advise(
         CompileError: the file has errors that leave no model.
     """
     loaded = read(source, load_options, name=name)
-    document = loaded.document
+    document, profiles = loaded.document, tuple(profiles)
     if document is None or not loaded.accepted:
         raise loaded.error()
     macros = loaded.path.lower().endswith(XACRO) or bool(loaded.origins)
-    other = document.format.counterpart
-    converted = partial(converted_form, source, loaded.path, load_options=load_options, model=model)
-    forms = {
-        document.format: converted(document.format) if loaded.is_mjcf else own_form(loaded, document),
-        other: converted(other),
-    }
+    own = loaded.format or document.format
+    rivals = rivals_of(own, profiles)
+    asked = {*rivals, *(format_ for each in profiles for format_ in each.formats)}
+    forms = {own: own_form(loaded, document)}
+    for format_ in (*rivals, *sorted(asked.difference(rivals))):
+        if format_ is not own:
+            forms[format_] = converted_form(source, loaded.path, format_, load_options, model)
+    among = {format_: forms[format_] for format_ in rivals}
     return Advice(
         loaded.path,
-        loaded.format or document.format,
-        None if loaded.is_mjcf else document.version,
+        own,
+        document.version if own is document.format else None,
         next((each.name for each in (*document.models, *document.worlds)), ""),
-        choose(Facts(document, forms, macros)),
-        forms[other],
-        tuple(readings(forms, tuple(profiles), load_options, loaded.path)),
+        choose(Facts(document, own, among, macros)),
+        among,
+        tuple(each for each in Format if each in forms),
+        tuple(readings(forms, profiles, load_options, loaded.path)),
     )
 
 

@@ -12,7 +12,6 @@ from twinform.compiler.conversion import Conversion
 from twinform.compiler.conversion_error import CompileError
 from twinform.compiler.driver import run_conversion
 from twinform.compiler.in_place import Updated, updated
-from twinform.compiler.input.front_ends import ROOTS
 from twinform.compiler.input.loading import LoadOptions, LoadResult, read
 from twinform.compiler.request import ConversionRequest
 from twinform.dataclass import dataclass
@@ -182,11 +181,9 @@ def _language(loaded: LoadResult) -> Language:
     """Return the format of a file, which for MJCF is not that of its document.
 
     Raises:
-        CompileError: it has none.
+        CompileError: it cannot be read.
     """
-    if loaded.tree is None:
-        raise loaded.error()
-    return cast("Language", ROOTS[str(loaded.tree.tag)][0])
+    return cast("Language", (loaded.format or _document(loaded).format).value)
 
 
 def _require_the_robot(made: Updated, before: Conversion, into: LoadResult, load_options: LoadOptions) -> None:

@@ -193,7 +193,7 @@ class Shortfalls:
         # Tables of reads are about the text of URDF. An engine of Gazebo sees SDF only, made by
         # libsdformat or by us, and has rows instead; `reads/gazebo.reads` says what libsdformat
         # makes of URDF.
-        if not profile.reads or self._subject.content is None or self._subject.format is Format.SDF:
+        if not profile.reads or self._subject.content is None or self._subject.format in {Format.SDF, Format.MJCF}:
             return
         for each in read_as(profile.reads, self._subject.content, self._subject.has_file):
             finding = self._merge_findings(each, profile)

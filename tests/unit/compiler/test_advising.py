@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 
+from twinform import profiles
 from twinform.compiler import LoadOptions
 from twinform.compiler.advising import Advice, advise
 from twinform.ir import Format
@@ -73,3 +74,47 @@ def test_a_format_that_is_impossible_is_told() -> None:
     advice = _advice(_sdf(f'<model name="m"><link name="a"><inertial auto="true"/>{plane}</link></model>'))
     assert advice.choice.format is Format.SDF
     assert any("it cannot be written as URDF" in reason for reason in advice.choice.reasons)
+
+
+_INERTIAL = '<inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'
+_VISUAL = '<visual><geometry><sphere radius="1"/></geometry></visual>'
+_TWO_LINKS = (
+    f'<robot name="r"><link name="a">{_INERTIAL}{_VISUAL}</link><link name="b"><collision><geometry>'
+    '<sphere radius="1"/></geometry></collision></link><joint name="j" type="fixed"><parent link="a"/>'
+    '<child link="b"/></joint>{}</robot>'
+)
+_MJCF = b"""<mujoco model="m"><worldbody><body name="a"><freejoint/><inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/>
+<geom size="1"/></body></worldbody></mujoco>"""
+
+
+def _for_mujoco(source: bytes) -> Advice:
+    return advise(source, profiles.load("mujoco"), LoadOptions())
+
+
+def test_what_mujoco_reads_otherwise_of_a_urdf_is_told() -> None:
+    advice = _for_mujoco(_TWO_LINKS.format("").encode())
+    (words,) = [each for each in advice.choice.reasons if "MuJoCo reads the URDF otherwise" in each]
+    assert "gives 1 link without inertial a mass" in words
+    assert "merges 1 link on fixed joints into their parents" in words
+    assert "leaves 1 visual out" in words
+
+
+def test_a_urdf_that_says_so_is_read_as_it_is() -> None:
+    settings = '<mujoco><compiler fusestatic="false" discardvisual="false"/></mujoco>'
+    advice = _for_mujoco(_TWO_LINKS.format(settings).replace('<link name="b">', f'<link name="b">{_INERTIAL}').encode())
+    assert not [each for each in advice.choice.reasons if "MuJoCo reads" in each]
+
+
+def test_for_mujoco_alone_the_choice_is_between_urdf_and_mjcf() -> None:
+    advice = _for_mujoco(_TWO_LINKS.format("").encode())
+    assert (set(advice.rivals), advice.formats) == ({Format.URDF, Format.MJCF}, (Format.URDF, Format.MJCF))
+    both = advise(_TWO_LINKS.format("").encode(), profiles.parse("mujoco,drake"), LoadOptions())
+    assert (set(both.rivals), both.formats) == ({Format.URDF, Format.SDF}, tuple(Format))
+    (mujoco,) = [each for each in both.consumers if each.profile.name == "mujoco"]
+    assert set(mujoco.forms) == {Format.URDF, Format.MJCF}
+
+
+def test_a_file_of_mjcf_is_one_of_mjcf() -> None:
+    advice = _for_mujoco(_MJCF)
+    assert (advice.format, advice.version, advice.choice.format) == (Format.MJCF, None, Format.MJCF)
+    assert set(_advice(_MJCF).rivals) == set(Format)
