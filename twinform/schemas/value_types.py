@@ -235,8 +235,8 @@ def list_type(base: str, least: int, most: int) -> str:
 
 
 LENGTHS = {
-    "double": ((2, 2), (4, 4), (6, 6), (7, 7), (1, 2), (1, 3), (1, 5), (1, 6), (1, 10), (2, 6)),
-    "int": ((2, 2), (3, 3), (1, 3), (1, 31)),
+    "double": ((2, 2), (4, 4), (6, 6), (7, 7), (1, 2), (1, 3), (1, 5), (1, 6), (1, 10)),
+    "int": ((2, 2), (3, 3), (1, 31)),
 }
 """The lengths of the lists that MJCF has, beside vectors of three numbers and of any number."""
 _COUNTED = {1: "one", 2: "two", 3: "three", 4: "four", 5: "five", 6: "six", 7: "seven", 10: "ten"}

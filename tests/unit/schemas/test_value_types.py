@@ -55,10 +55,8 @@ EXPECTED = {
         "double.1-5": "one to five numbers",
         "double.1-6": "one to six numbers",
         "double.1-10": "one to ten numbers",
-        "double.2-6": "two to six numbers",
         "int.2": "two whole numbers",
         "int.3": "three whole numbers",
-        "int.1-3": "one to three whole numbers",
         "int.1-31": "one to 31 whole numbers",
     },
 }
