@@ -16,11 +16,12 @@ tags. The lines of a comment, and of a text of nothing but numbers, move with th
 import re
 from array import array
 from functools import cached_property
+from types import ModuleType
 from typing import Literal
 
 from twinform.dataclass import dataclass
 from twinform.lazy import lazy_pattern
-from twinform.schemas.generated.name_usage import NUMERIC_ATTRIBUTES, NUMERIC_TEXTS, OPAQUE
+from twinform.schemas.generated import name_usage
 from twinform.text.positions import Lines
 from twinform.text.source_text import SourceText
 from twinform.text.start_tags import TAB, StartTag, all_numbers, name_of, rank, shortest
@@ -37,6 +38,8 @@ _WIDE = lazy_pattern(r"[ \t\r\n]{2}|\t")
 _PLAIN = lazy_pattern(r"""<([^\s/>]++)(?: [^\s=<>/"']++=(?:"[^"\r\n]*+"|'[^'\r\n]*+'))*+(?:>| ?/>)""")
 """A start tag that is laid out already."""
 _TAGS = frozenset({TokenKind.START, TokenKind.EMPTY})
+_MJCF = frozenset({"mujoco", "mujocoinclude"})
+"""The roots of MJCF, and of files that MJCF includes."""
 _BETWEEN = frozenset({TokenKind.BLANK, TokenKind.COMMENT})
 
 
@@ -65,6 +68,16 @@ def _line_end(text: str) -> str:
     return found.group() if found else "\n"
 
 
+def _usage_of(tokens: Tokens) -> ModuleType:
+    """Return the usage of names in the format of a text: in MJCF names of URDF and SDF have other attributes."""
+    first = next((number for number, kind in enumerate(tokens.kinds) if kind in _TAGS), None)
+    if first is None or name_of(tokens[first]) not in _MJCF:
+        return name_usage
+    from twinform.schemas.generated import mjcf_name_usage  # noqa: PLC0415 - few files are MJCF
+
+    return mjcf_name_usage
+
+
 class _Formatting:
     """One pass of the formatter over the tokens of a text."""
 
@@ -75,6 +88,7 @@ class _Formatting:
         self.asked = (0, False)
         self.keeps_tags = options.numbers == "kept" and not options.sort_attributes
         self.open: list[_OpenElement] = [_OpenElement("", opaque=False)]
+        self.usage = _usage_of(tokens)
 
     def run(self) -> str:
         """Return the formatted text."""
@@ -105,7 +119,7 @@ class _Formatting:
         around.row = number if self._is_row(number) else None
         if self.tokens.kinds[number] == TokenKind.START:
             name = plain[1] if plain else name_of(text)
-            self.open.append(_OpenElement(name, opaque=around.opaque or name in OPAQUE))
+            self.open.append(_OpenElement(name, opaque=around.opaque or name in self.usage.OPAQUE))
 
     def _end(self, number: int) -> None:
         ended = self.open.pop()
@@ -120,7 +134,7 @@ class _Formatting:
         begin = self.tokens.ends[number]
         text, ended = self.tokens.text[begin : self.tokens.start(end)], self.open.pop()
         is_leaf = end == number + 2 and self.tokens.kinds[number + 1] == TokenKind.TEXT
-        if is_leaf and not ended.opaque and ended.name in NUMERIC_TEXTS and all_numbers(text):
+        if is_leaf and not ended.opaque and ended.name in self.usage.NUMERIC_TEXTS and all_numbers(text):
             text = self._moved(shortest(text) if self.options.numbers == "shortest" else text, number)
         self.out.append(f"{text}</{ended.name}>")
 
@@ -184,9 +198,9 @@ class _Formatting:
         """Parse a start tag, with its attributes sorted and its numbers shortened where the options ask for it."""
         tag, options = StartTag.of(self.tokens[number]), self.options
         if options.sort_attributes:
-            tag = tag.sorted_by([rank(tag.name, each.name) for each in tag.attributes])
+            tag = tag.sorted_by([rank(self.usage.ORDER.get(tag.name, ()), each.name) for each in tag.attributes])
         if options.numbers == "shortest" and not self.open[-1].opaque:
-            numeric = NUMERIC_ATTRIBUTES.get(tag.name, ())
+            numeric = self.usage.NUMERIC_ATTRIBUTES.get(tag.name, ())
             tag = tag.with_values(lambda name, value: shortest(value) if name in numeric else value)
         return tag
 

@@ -12,7 +12,6 @@ from typing import NamedTuple
 
 from twinform.dataclass import dataclass
 from twinform.lazy import lazy_pattern
-from twinform.schemas.generated.name_usage import ORDER
 
 _NAME = lazy_pattern(r"<([^\s/>]++)")
 _ATTRIBUTE = lazy_pattern(r"""(\s*+)([^\s=<>/"']++)\s*+=\s*+("[^"]*+"|'[^']*+')""")
@@ -168,11 +167,10 @@ class _Aligning:
         self.known = self.known and _LINE_END.search(text) is None  # behind a value of several lines nobody aligns
 
 
-def rank(element: str, attribute: str) -> int:
-    """Return a sort key: smaller for attributes that usually come first."""
+def rank(known: Sequence[str], attribute: str) -> int:
+    """Return a sort key: smaller for attributes that come first in the usual order, which is `known`."""
     if attribute == "name":
         return -1
-    known = ORDER.get(element, ())
     return known.index(attribute) if attribute in known else len(known)
 
 

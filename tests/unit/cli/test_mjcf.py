@@ -1,0 +1,95 @@
+"""What each command makes of MJCF."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from tests.unit.cli.conftest import GOOD, Run
+
+PENDULUM = """\
+<mujoco model="pendulum">
+  <worldbody>
+    <body name="arm" pos="0 0 1">
+      <joint axis="0 1 0" name="swing"/>
+      <geom size=".05 .5" type="capsule" name="rod"/>
+    </body>
+  </worldbody>
+</mujoco>
+"""
+
+
+@pytest.fixture
+def pendulum(tmp_path: Path) -> Path:
+    path = tmp_path / "pendulum.xml"
+    path.write_text(PENDULUM)
+    (tmp_path / "package.xml").write_text("<package/>")
+    return path
+
+
+def test_it_is_found_in_folders_and_checked(run: Run, pendulum: Path) -> None:
+    done = run("check", pendulum.parent, "--format", "json")
+    files = json.loads(done.stdout)["files"]
+    assert [each["path"] for each in files] == [str(pendulum)]
+    assert done.exit_code == 0
+
+
+def test_what_others_include_is_checked_with_them(run: Run, pendulum: Path) -> None:
+    (pendulum.parent / "scene.xml").write_text('<mujoco><include file="pendulum.xml"/><worldbody/></mujoco>')
+    pendulum.write_text(PENDULUM.replace("axis", "axsi"))
+    found = json.loads(run("check", pendulum.parent, "--format", "json").stdout)["files"]
+    assert [each["diagnostics"] for each in found if each["path"] == str(pendulum)] == [[]]
+
+
+def test_attributes_get_the_order_of_mjcf(run: Run, pendulum: Path) -> None:
+    pendulum.write_text(PENDULUM.replace(".05 .5", "5.00e-2 0.50"))
+    assert run("format", pendulum, "--sort-attributes", "--numbers", "shortest").exit_code == 0
+    text = pendulum.read_text()
+    assert '<joint name="swing" axis="0 1 0"/>' in text
+    assert '<geom name="rod" type="capsule" size="0.05 0.5"/>' in text
+
+
+@pytest.mark.parametrize(
+    ("arguments", "complaint"),
+    [
+        (["convert", "pendulum.xml", "--in-place"], "is MJCF, which is written anew"),
+        (["convert", "good.urdf", "--into", "pendulum.xml"], "--into takes a file of the other format"),
+        (["fix", "pendulum.xml", "--passes", "fill-inertia"], "is not URDF or SDF"),
+        (["convert", "pendulum.xml", "--split", "--to", "mjcf", "-o", "out"], "--split makes a file of every model"),
+        (["batch", "convert", ".", "out", "--to", "mjcf", "--split"], "--split makes a file of every model"),
+    ],
+)
+def test_what_is_not_for_mjcf_is_refused(
+    run: Run, pendulum: Path, monkeypatch: pytest.MonkeyPatch, arguments: list[str], complaint: str
+) -> None:
+    monkeypatch.chdir(pendulum.parent)
+    Path("good.urdf").write_text(GOOD)
+    done = run(*arguments)
+    assert done.exit_code == 2
+    assert complaint in " ".join(done.stderr.split())
+    assert pendulum.read_text() == PENDULUM
+
+
+def test_fixes_write_no_elements_of_other_formats(run: Run, pendulum: Path) -> None:
+    pendulum.write_text(PENDULUM.replace("<geom size", "stray <geom sizze"))
+    run("check", "--fix", "--unsafe-fixes", pendulum)
+    text = pendulum.read_text()
+    assert "<!-- stray -->" in text
+    assert "<geom size" in text
+    assert "<inertial" not in text
+
+
+def test_a_batch_writes_it_as_xml(run: Run, pendulum: Path) -> None:
+    (pendulum.parent / "good.urdf").write_text(GOOD)
+    assert run("batch", "convert", pendulum.parent, pendulum.parent / "out", "--to", "mjcf").exit_code == 0
+    assert sorted(each.name for each in (pendulum.parent / "out").glob("*.xml")) == ["good.xml", "pendulum.xml"]
+
+
+def test_mujoco_reads_it_and_others_do_not(run: Run, pendulum: Path) -> None:
+    assert run("check", pendulum, "--for", "mujoco").stdout.count("unread-format") == 0
+    assert "Gazebo harmonic does not read MJCF" in run("check", pendulum, "--for", "gazebo").stdout
+
+
+def test_its_format_is_called_by_its_name(run: Run, pendulum: Path) -> None:
+    assert run("stats", pendulum).stdout.startswith(f"{pendulum}: mjcf\n")
+    assert run("advise", pendulum).stdout.startswith(f"{pendulum}: MJCF, 'pendulum'\n")
