@@ -117,17 +117,28 @@ def _said(attribute: Attribute, value: str) -> str:
     return ""
 
 
-def _document(attribute: Attribute, value: str) -> str:
+def saved(attribute: Attribute, value: str | None) -> str | None:
+    """What MuJoCo saves of a model with a value, or without the attribute; None if it is no model yet."""
+    try:
+        spec = _mujoco().MjSpec.from_string(_document(attribute, value))
+        spec.compile()
+    except (ValueError, RuntimeError):
+        return None
+    return spec.to_xml()
+
+
+def _document(attribute: Attribute, value: str | None) -> str:
     root = here = etree.Element("mujoco")
     for depth, name in enumerate(attribute.steps, 1):
         here = etree.SubElement(here if name != "body" else etree.SubElement(here, "worldbody"), name)
         for key, needed in _needed(attribute.steps[:depth]).items():
             here.set(key, needed)
-    for key, needed in {
-        **_WITH.get((*attribute.steps, attribute.fact.name), {}),
-        attribute.fact.name[1:]: value,
-    }.items():
+    name = attribute.fact.name[1:]
+    for key, needed in _WITH.get((*attribute.steps, attribute.fact.name), {}).items():
         here.set(key, needed)
+    here.attrib.pop(name, None)
+    if value is not None:
+        here.set(name, value)
     return etree.tostring(root, encoding="unicode")
 
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from tests.oracles.mjcf_probes import Attribute, attributes, complaint, lengths, printed, written
+from tests.oracles.mjcf_probes import Attribute, attributes, complaint, lengths, printed, saved, written
 from twinform.testing import oracles
 
 SECTIONS = (
@@ -20,6 +20,13 @@ VALUES = {
     "ints": ("1 2",),
 }
 """Some values of the types of which there is no number of numbers."""
+
+
+RESOLVED = frozenset(
+    f"default/{each}"
+    for each in ("position/@timeconst", "orientation/@input", "pid/@input", "damper/@kv", "dcmotor/@input")
+) | {"default/texture/@gridlayout"}
+"""Values of a class from which MuJoCo makes others, which it saves; and one that only goes with a grid of its size."""
 
 
 @pytest.fixture(autouse=True)
@@ -56,6 +63,15 @@ def test_what_the_facts_do_not_have_is_none_for_mujoco(section: str) -> None:
         f"{each}={value}" for each in attributes([section]) for value in _illegal(each) if not complaint(each, value)
     ]
     assert taken == []
+
+
+def test_a_default_that_is_written_changes_nothing() -> None:
+    given = [each for each in attributes() if each.fact.default is not None and str(each) not in RESOLVED]
+    without = {each: model for each in given if (model := saved(each, None)) is not None}
+    assert (
+        len(without) > 600
+    )  # elements of which MuJoCo makes no model by themselves have the defaults of their classes
+    assert [str(each) for each, model in without.items() if saved(each, each.fact.default) != model] == []
 
 
 def _legal(attribute: Attribute) -> list[str]:
