@@ -6,6 +6,7 @@ Made by `make generate` from the entry points of `pyproject.toml`; do not edit i
 from collections.abc import Mapping
 
 BUILT_IN: Mapping[str, str] = {
+    "add-actuators": "joints.add_actuators:AddActuators",
     "add-plugin": "plugins.add_plugin:AddPlugin",
     "add-root": "structure.add_root:AddRoot",
     "add-sensor": "plugins.add_sensor:AddSensor",
