@@ -296,3 +296,36 @@ def test_a_second_joint_takes_the_freedoms_of_its_type(tmp_path: Path, kind: str
         force[row] = 1.0
         mujoco.mj_mulJacTVec(model, data, jacobian[row], force)
     assert np.linalg.matrix_rank(jacobian, tol=1e-9) == rank
+
+
+_MOTORS = (
+    "<plugin filename='gz-sim-joint-position-controller-system' name='gz::sim::systems::JointPositionController'>"
+    "<joint_name>turn</joint_name></plugin>"
+    "<plugin filename='gz-sim-joint-controller-system' name='gz::sim::systems::JointController'>"
+    "<joint_name>roll</joint_name></plugin>"
+)
+
+
+def test_actuators_move_joints_to_what_is_commanded(tmp_path: Path) -> None:
+    limit = "<limit><lower>-2</lower><upper>2</upper><effort>20</effort><velocity>5</velocity></limit>"
+    joints = "".join(
+        f"<joint name='{name}' type='revolute'><parent>base</parent><child>{child}</child>"
+        f"<axis><xyz>0 0 1</xyz>{each}</axis></joint>"
+        for name, child, each in (
+            ("turn", "a", limit),
+            ("roll", "b", limit.replace("-2", "-1e16").replace("2<", "1e16<")),
+        )
+    )
+    source = tmp_path / "source.sdf"
+    robot = _model(_link("base") + _link("a") + _link("b", pose="0 0 1 0 0 0") + joints + _FIXED + _MOTORS, "robot")
+    source.write_text(f"<sdf version='1.12'>{_world(robot)}</sdf>")
+    model = mujoco.MjModel.from_xml_string(twinform.convert(source, to="mjcf", passes="add-actuators").text)
+    data = mujoco.MjData(model)
+    data.actuator("turn").ctrl[0] = 0.7
+    data.actuator("roll").ctrl[0] = 3.0
+    _run(model, data, 2.0)
+    assert data.joint("robot::turn").qpos[0] == pytest.approx(0.7, abs=1e-3)
+    assert data.joint("robot::roll").qvel[0] == pytest.approx(3.0, rel=1e-2)
+    data.actuator("turn").ctrl[0] = 9.0
+    _run(model, data, 2.0)
+    assert data.joint("robot::turn").qpos[0] == pytest.approx(2.0, abs=1e-2)

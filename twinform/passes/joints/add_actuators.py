@@ -26,8 +26,6 @@ _STIFFNESS = 100.0
 _SLACK: dict[str, float] = {"prismatic": 0.01}
 """The error of the position at which an actuator pulls with the whole effort: in m, and of joints that turn in rad."""
 _TURN_SLACK = 0.1
-_VELOCITY_SLACK = 0.1
-"""The part of the greatest speed by which a joint may be too slow before an actuator pulls with the whole effort."""
 _DRAG = 10.0
 """In N m s/rad or N s/m, where effort or speed are not written."""
 
@@ -46,8 +44,7 @@ class AddActuators(Pass):
     2. with `interface`, every joint that can move gets one, whatever commands it;
     3. `kp` of a position is the effort divided by 0.1 rad or 0.01 m, so that it pulls fully at that error, or 100 N
        m/rad or 1000 N/m where no effort is written; the damping is that of `damping-ratio` at the drawn pose;
-    4. `kv` of a velocity is the effort divided by a tenth of the greatest speed, or 10 where one of them is not
-       written;
+    4. `kv` of a velocity is the effort divided by the greatest speed, or 10 where one of them is not written;
     5. the range of the control is that of the command interface, or of the limits of the joint;
     6. the model asks for the integrator `implicitfast`, which stays stable with stiff actuators.
 
@@ -140,7 +137,8 @@ class _Actuator:
         if self.options.kv:
             return self.options.kv
         effort, speed = _finite(self._limit.effort), _finite(self._limit.velocity)
-        drag = effort / (_VELOCITY_SLACK * speed) if effort and speed else _DRAG
+        # A greater one would only pull with the whole effort, this way and that: such a motor never comes to rest.
+        drag = effort / speed if effort and speed else _DRAG
         self._report(sink, "kv", drag)
         return drag
 
