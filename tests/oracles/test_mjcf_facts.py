@@ -67,11 +67,10 @@ def test_what_the_facts_do_not_have_is_none_for_mujoco(section: str) -> None:
 
 def test_a_default_that_is_written_changes_nothing() -> None:
     given = [each for each in attributes() if each.fact.default is not None and str(each) not in RESOLVED]
-    without = {each: model for each in given if (model := saved(each, None)) is not None}
-    assert (
-        len(without) > 600
-    )  # elements of which MuJoCo makes no model by themselves have the defaults of their classes
-    assert [str(each) for each, model in without.items() if saved(each, each.fact.default) != model] == []
+    pairs = [(str(each), before, saved(each, each.fact.default)) for each in given if (before := saved(each, None))]
+    # An element that is no model by itself has the defaults of its class.
+    assert len(pairs) > 600
+    assert [name for name, before, after in pairs if before != after] == []
 
 
 def _legal(attribute: Attribute) -> list[str]:
