@@ -2,6 +2,7 @@
 
 import importlib
 import re
+import warnings
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from functools import cache
@@ -119,11 +120,12 @@ def _said(attribute: Attribute, value: str) -> str:
 
 def saved(attribute: Attribute, value: str | None) -> str | None:
     """What MuJoCo saves of a model with a value, or without the attribute; None if it is no model yet."""
-    try:
-        spec = _mujoco().MjSpec.from_string(_document(attribute, value))
-        spec.compile()
-    except (ValueError, RuntimeError):
-        return None
+    with warnings.catch_warnings(action="ignore"):  # of what is missing for a model that moves as it should
+        try:
+            spec = _mujoco().MjSpec.from_string(_document(attribute, value))
+            spec.compile()
+        except (ValueError, RuntimeError):
+            return None
     return spec.to_xml()
 
 
