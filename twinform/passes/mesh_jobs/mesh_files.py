@@ -5,7 +5,7 @@ from typing import Literal
 
 from twinform.file_access import read_regular
 
-READ = frozenset({"stl", "obj", "dae", "ply", "off", "glb"})
+READ = frozenset({"stl", "obj", "dae", "ply", "off", "glb", "msh"})
 """Formats whose triangles are all in one file; other files that they name hold only the appearance."""
 LARGEST = 2**28
 """In bytes. A binary STL of this size has five million triangles."""

@@ -19,6 +19,7 @@ from twinform.passes.mesh_jobs.job import MeshJob
 from twinform.passes.mesh_jobs.libraries import Array, np, trimesh
 from twinform.passes.mesh_jobs.mesh_files import RefusedMeshError
 from twinform.passes.mesh_jobs.mesh_writing import turn_z_up
+from twinform.passes.mesh_jobs.mujoco_meshes import KIND, scene_of_msh
 from twinform.schemas import XmlElement
 
 MOST_TRIANGLES = 5_000_000
@@ -211,6 +212,8 @@ def scene_of(
         _require_plain_obj(content)
     if kind in {"glb", "gltf"}:
         _require_few_nodes(content)
+    if kind == KIND:
+        return scene_of_msh(content)
     resolver = _Companions(companions) if companions else None  # without one nothing is read but these bytes
     return trimesh.load_scene(
         io.BytesIO(content), file_type=kind, resolver=resolver, skip_materials=not appearance, process=False

@@ -20,4 +20,4 @@ def lower_mjcf(root: XmlElement, context: Context, load_options: LoadOptions) ->
     """Build the document of a `<mujoco>` in the terms of SDF; the tree is left as it is."""
     canonical = normalize(root, context, load_options)
     texts = take_texts(canonical, context)
-    return merge_texts(lower(canonical, context, load_options), texts, canonical, context.sink)
+    return merge_texts(lower(canonical, context, load_options, root), texts, canonical, context.sink)

@@ -9,7 +9,7 @@ of the file, and of several each has that of its first body.
 from collections.abc import Iterable
 from pathlib import Path
 
-from twinform.compiler.input.load_options import LoadOptions
+from twinform.compiler.input.load_options import LoadOptions, unexpanded_name
 from twinform.compiler.input.mjcf.assets import AssetTable
 from twinform.compiler.input.mjcf.contact_masks import ContactMasks, touches_itself
 from twinform.compiler.input.mjcf.geom_solids import GeomSolids
@@ -41,18 +41,18 @@ _MODEL = "model"
 """The name of a model in a file that has none."""
 
 
-def lower(root: XmlElement, context: Context, load_options: LoadOptions) -> Document:
-    """Build the document of a canonical tree."""
-    return FileLowering(Piece(root, context.file), context, load_options).document()
+def lower(root: XmlElement, context: Context, load_options: LoadOptions, file: XmlElement) -> Document:
+    """Build the document of a canonical tree, which was made of the tree of a file."""
+    return FileLowering(Piece(root, context.file), context, load_options, file).document()
 
 
 class FileLowering:
     """Lowers one file; what is left of its sections goes to the model that it is about, or to the world."""
 
-    def __init__(self, root: Piece, context: Context, load_options: LoadOptions) -> None:
+    def __init__(self, root: Piece, context: Context, load_options: LoadOptions, file: XmlElement) -> None:
         self.root = root
         self.sections = Sections(root)
-        self.keeper = RemainderKeeper(context.sink)
+        self.keeper = RemainderKeeper(context.sink, file)
         self.trees = [each for each in self.sections.inside(WORLDBODY) if each.tag == "body"]
         self.owners = Owners(self.trees, self.sections)
         self.assets = AssetTable(self.sections.of("asset"))
@@ -60,7 +60,7 @@ class FileLowering:
             self.assets, ContactMasks.of(each for each in root.walk() if each.tag == "geom"), self.keeper
         )
         settings = MassSettings.of(self.sections.of("compiler"))
-        meshes = Meshes(LocalAssets(load_options.search, Path(context.file)))
+        meshes = Meshes(LocalAssets(load_options.search, Path(unexpanded_name(context.file))))
         solids = GeomSolids(self.assets, meshes, context.sink)
         bodies = [each for tree in self.trees for each in tree.walk() if each.tag == "body"]
         self.inertias = {each: body_inertia(each, settings, solids) for each in bodies}
@@ -179,14 +179,14 @@ class FileLowering:
             if section.tag == WORLDBODY:
                 section.is_settled = True
                 continue
-            own = self.keeper.rest_element(section)
+            own = self.keeper.rest_element(section, with_inside=False)
             if own.attributes:
                 left.setdefault(section.tag, []).append(own)
             for piece in section.inside:
                 element = self._left_of_piece(piece, section.tag)
                 if element is not None:
                     left.setdefault(section.tag, []).append(element)
-        attributes = self.keeper.rest_element(self.root).attributes
+        attributes = self.keeper.rest_element(self.root, with_inside=False).attributes
         if attributes:
             left["mujoco"] = [Element.unchecked(name="mujoco", attributes=attributes)]
         return left
@@ -196,7 +196,8 @@ class FileLowering:
             return None
         if section == "asset" and piece.taken:
             element = self.keeper.rest_element(piece)
-            return element if len(element.attributes) > (piece.name is not None) else None
+            is_more = element.children or len(element.attributes) > (piece.name is not None)
+            return element if is_more else None
         return self._rest(piece, section)
 
     def _scene(self) -> list[Element]:

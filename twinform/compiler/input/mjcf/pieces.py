@@ -25,10 +25,11 @@ class Piece:
         source: where it was written.
         inside: the elements in it, in their order.
         taken: the attributes that the document expresses.
+        kept: the attributes that are in a remainder.
         is_settled: whether the document expresses the element, or holds its remainder.
     """
 
-    __slots__ = ("_attributes", "inside", "is_settled", "name", "source", "tag", "taken")
+    __slots__ = ("_attributes", "inside", "is_settled", "kept", "name", "source", "tag", "taken")
 
     def __init__(self, element: XmlElement, file: str, above: Source | None = None) -> None:
         self.tag = str(element.tag)
@@ -37,6 +38,7 @@ class Piece:
         self.source = Source(file, element.sourceline or 0, above, self.tag, self.name or _place(element))
         self.inside = tuple([Piece(child, file, self.source) for child in children(element)])
         self.taken: set[str] = set()
+        self.kept: set[str] = set()
         self.is_settled = False
 
     @property
@@ -105,6 +107,11 @@ class Piece:
     def untaken(self) -> tuple[tuple[str, str], ...]:
         """The attributes that the document does not express, in their order."""
         return tuple(pair for pair in self._attributes.items() if pair[0] not in self.taken)
+
+    @property
+    def forgotten(self) -> tuple[str, ...]:
+        """The attributes that are neither expressed nor kept, which nothing should have when a file is lowered."""
+        return tuple(name for name in self._attributes if name not in self.taken and name not in self.kept)
 
     def whole(self) -> Element:
         """Return the element with all in it."""

@@ -14,6 +14,7 @@ from twinform.compiler.input.mjcf.pieces import Piece
 from twinform.diagnostics import DiagnosticSink, Fate, Location, Rule, rules
 from twinform.ir import Element, Node, Opaque
 from twinform.passes.carriers.carriers import NAMESPACE
+from twinform.schemas import XmlElement
 
 MJCF = "mjcf"
 """The kind of the element of our namespace that holds the remainder of a part of MJCF."""
@@ -67,45 +68,67 @@ _OTHER_REASON = "only MJCF has it"
 
 
 class RemainderKeeper:
-    """Makes the remainders of elements and enters each part of them into the ledger."""
+    """Makes the remainders of elements and enters each part of them into the ledger.
 
-    def __init__(self, sink: DiagnosticSink) -> None:
+    What an element of the tree `file` has from a default class counts as no part of it: it is written once in the file,
+    and stands in all elements of the class.
+    """
+
+    def __init__(self, sink: DiagnosticSink, file: XmlElement) -> None:
         self.sink = sink
+        self._written = _written_attributes(file)
 
     def rest(self, piece: Piece, *, is_marked: bool = False) -> tuple[Opaque, ...]:
-        """Return what no node says of an element, without the elements in it; with `is_marked` also where it is empty.
+        """Return what no node says of an element; with `is_marked` also where that is nothing.
 
-        The element is settled by that.
+        The element is settled by that, and so is what is in it, but for the bodies, shapes and so on in a body.
         """
-        element = self.rest_element(piece)
-        return (holder(element),) if element.attributes or is_marked else ()
+        element = self.rest_element(piece, with_inside=piece.tag != "body")
+        return (holder(element),) if element.attributes or element.children or is_marked else ()
 
-    def rest_element(self, piece: Piece, named: bool = False) -> Element:
-        """Return the element with the attributes that no node says; `named` has its name even if that was taken."""
+    def rest_element(self, piece: Piece, *, with_inside: bool = True) -> Element:
+        """Return the element with the attributes that no node says, and with all in it that is not settled yet."""
         piece.is_settled = True
         left = piece.untaken
         for name, _ in left:
+            piece.kept.add(name)
             message = f"{name} of <{piece.tag}>{_called(piece)} is kept as it is: {reason(name, piece.tag)}"
-            self._carry(message, piece.location.at(f"@{name}"), 1)
-        if named and piece.name is not None and "name" in piece.taken and left:
-            left = (("name", piece.name), *left)
-        return Element.unchecked(name=piece.tag, attributes=left, source=piece.source)
+            self._carry(message, piece.location.at(f"@{name}"), int(name in self._attributes_of(piece)))
+        inside = tuple([self.whole(each) for each in piece.inside if not each.is_settled]) if with_inside else ()
+        return Element.unchecked(name=piece.tag, attributes=left, children=inside, source=piece.source)
 
     def whole(self, piece: Piece, section: str = "", why: str | None = None) -> Element:
         """Return a whole element of a section, which no node says."""
+        weight = 0
         for each in piece.walk():
             each.is_settled = True
+            element = each.whole()
+            each.kept.update(name for name, _ in element.attributes)
+            weight += 1 + len(each.kept & self._attributes_of(each))
         element = piece.whole()
         message = f"<{piece.tag}>{_called(piece)} is kept as it is: {why or reason(piece.tag, section)}"
-        self._carry(message, piece.location, element.weight)
+        self._carry(message, piece.location, weight)
         return element.copy(source=piece.source)
 
     def approximate(self, message: str, where: Location, rule: Rule = rules.MJCF_ONLY) -> None:
         """Enter a part that the document says, but not exactly."""
         self.sink.account(Fate.APPROXIMATED, rule, message, where, 0)
 
+    def _attributes_of(self, piece: Piece) -> frozenset[str]:
+        """Return the attributes that an element has in the file itself."""
+        return self._written.get((piece.source.line, piece.tag), frozenset())
+
     def _carry(self, message: str, where: Location, weight: int) -> None:
         self.sink.account(Fate.CARRIED, rules.MJCF_ONLY, message, where, weight)
+
+
+def _written_attributes(file: XmlElement) -> Mapping[tuple[int, str], frozenset[str]]:
+    """Return the attributes in a file by the line and the name of their elements."""
+    found: dict[tuple[int, str], frozenset[str]] = {}
+    for each in file.iter():
+        key = each.sourceline or 0, str(each.tag)
+        found[key] = found.get(key, frozenset()).union(map(str, each.keys()))
+    return found
 
 
 def holder(*elements: Element) -> Opaque:
