@@ -124,9 +124,9 @@ def saved(attribute: Attribute, value: str | None) -> str | None:
         try:
             spec = _mujoco().MjSpec.from_string(_document(attribute, value))
             spec.compile()
+            return spec.to_xml()
         except (ValueError, RuntimeError):
             return None
-    return spec.to_xml()
 
 
 def _document(attribute: Attribute, value: str | None) -> str:
