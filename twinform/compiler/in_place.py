@@ -13,7 +13,7 @@ from twinform.compiler.output.emitting import document_tree
 from twinform.compiler.request import ConversionRequest
 from twinform.diagnostics import DiagnosticSink, Location
 from twinform.diagnostics.rules import EDIT_CONFLICT
-from twinform.ir import Document
+from twinform.ir import Document, Format
 from twinform.passes import PassInstrumentation
 from twinform.schemas import XmlElement, path_of
 from twinform.text import LineColumn, Lines, Merge, SourceText, UndecodableError, UnplacedError, apply, edits, merge
@@ -82,7 +82,9 @@ def updated(
     own, source = file.tree, file.content
     if own is None or source is None or before is None:
         raise file.error()
-    if file.is_mjcf:  # its document is in the terms of SDF, and so are all edits
+    if (
+        file.is_mjcf and conversion.document.format is not Format.MJCF
+    ):  # its document is in the terms of SDF, and so are all edits
         message = "MJCF cannot be changed in place: convert it with --to mjcf, and name another file with -o"
         sink.report(EDIT_CONFLICT, message, Location(line=1, path="/mujoco"))
         raise CompileError((*conversion.diagnostics, *sink.diagnostics))
@@ -110,7 +112,9 @@ def _patched(source: bytes, own: XmlElement, tree: XmlElement, conversion: Conve
     text = SourceText.of(source)
     made = sorted(edits(text, own, tree), key=lambda edit: edit.span)
     lines = Lines(text.text)
-    changes = [TextChange(lines.place(span.start), span.of(text.text), new) for span, new, _ in made]
+    changes = [
+        TextChange(lines.place(span.start), old, new) for span, new, _ in made if (old := span.of(text.text)) != new
+    ]
     return Updated(conversion, text.with_text(apply(text.text, made)).data, tuple(changes), source)
 
 

@@ -6,16 +6,17 @@ from functools import cached_property, partial
 from pathlib import Path
 from typing import cast
 
-from twinform.compiler.compare import Comparison, Difference, compare_files
+from twinform.compiler.compare import Comparison, Difference, Side, compare_files
 from twinform.compiler.compare.comparison import USUAL, ComparisonOptions
 from twinform.compiler.conversion import Conversion
 from twinform.compiler.conversion_error import CompileError
 from twinform.compiler.driver import run_conversion
 from twinform.compiler.in_place import Updated, updated
 from twinform.compiler.input.loading import LoadOptions, LoadResult, read
+from twinform.compiler.mjcf_remainder import without_kept, without_own_sites
 from twinform.compiler.request import ConversionRequest
 from twinform.dataclass import dataclass
-from twinform.diagnostics import DiagnosticSink, Location
+from twinform.diagnostics import NOWHERE, DiagnosticSink, Location
 from twinform.diagnostics.rules import EDIT_CONFLICT
 from twinform.ir import Document, Format
 from twinform.passes import Pipeline
@@ -99,10 +100,9 @@ class Follower:
         back = replace(self.request, to=to, sdf_version=None, urdf_version=None, passes=Pipeline())
         if to == "sdf":
             back = replace(back, sdf_version=document.version, model=None)
-        # What only MJCF says has no words in the other formats but carriers, and whoever edits a URDF
-        # has not taken the actuators out of the MJCF by writing none.
-        back = replace(back, carriers=back.carriers and self.request.to != "mjcf")
-        return run_conversion(back, self.into, self.load_options, name=self.into.path).text.encode()
+        # Whoever edits a URDF has not taken the actuators out of the MJCF by writing none.
+        text = run_conversion(back, self.into, self.load_options, name=self.into.path).text.encode()
+        return without_kept(text) if self._of_mjcf else text
 
     def updated(self) -> Updated:
         """Change in the file only what the edits change.
@@ -111,7 +111,10 @@ class Follower:
             CompileError: one of the files cannot be converted, or both sides have changed the same.
         """
         sink = DiagnosticSink(self.into.path, self.load_options.strict)
-        made = updated(self.into, self.before.document, self.conversion, sink, same=self.base is None)
+        before = self.before.document
+        if self._of_mjcf:
+            before = without_own_sites(before, self.conversion.document)
+        made = updated(self.into, before, self.conversion, sink, same=self.base is None)
         # A merge pairs parts by names, content and likeness, and a wrong pair would write a wrong robot
         # silently. So the file as it would be is compared with the edited one. It costs two
         # comparisons.
@@ -131,7 +134,11 @@ class Follower:
         model = (self.request.model or self.robot_name) if self.has_several else None
         compared = partial(compare_files, load_options=self.load_options, options=options, model=model)
         found = compared(a, self.into, names=names)
-        wrong = found.counted and [*self._reachable(found.counted, compared)]
+        wrong = self._reachable(found.counted, compared) if found.counted else ()
+        if self._of_mjcf:  # lines of the source are those of a text that was read again
+            wrong = (
+                replace(each, a=replace(each.a, location=NOWHERE)) for each in wrong if not _is_own_frame(each, each.a)
+            )
         return replace(found, items=tuple(wrong))
 
     def _reachable(self, found: tuple[Difference, ...], compared: "partial[Comparison]") -> Iterator[Difference]:
@@ -139,6 +146,10 @@ class Follower:
         own = _keys(compared(self.before.text.encode(), self.into))
         edits = _keys(compared(self.conversion.text.encode(), self.before.text.encode())) if own else own
         return (each for each in found if _key(each) not in own or _key(each) in edits)
+
+    @property
+    def _of_mjcf(self) -> bool:
+        return self.request.to == "mjcf"
 
     @property
     def has_several(self) -> bool:
@@ -149,6 +160,11 @@ class Follower:
     def robot_name(self) -> str | None:
         """The name of the robot that is followed, if there is one at the root of its file."""
         return next((each.name for each in _document(self.edited).models), None)
+
+
+def _is_own_frame(found: Difference, source: Side) -> bool:
+    """Whether a difference is a frame, which is a site of MJCF, that the side of the source lacks."""
+    return found.group == "frame" and not found.aspect and source.text is None
 
 
 def _located(conversion: Conversion, edited: LoadResult, load_options: LoadOptions) -> LoadResult:
@@ -213,7 +229,7 @@ def _require_the_robot(made: Updated, before: Conversion, into: LoadResult, load
     # What differed before the edit is none of its doing.
     known = {_key(each) for each in compared(into, before.text.encode()).counted} if found else set[Key]()
     for each in found:
-        if _key(each) not in known:
+        if _key(each) not in known and not (into.is_mjcf and _is_own_frame(each, each.b)):
             where = each.a.location
             message = f"cannot be changed in place: {each.message} would not be as in the edited file"
             sink.report(EDIT_CONFLICT, message, Location(line=where.line or 1, path=where.path or "/"))

@@ -15,11 +15,13 @@ from twinform.compiler.driver import run_conversion
 from twinform.compiler.in_place import TextChange
 from twinform.compiler.input.loading import LoadOptions, LoadResult
 from twinform.compiler.into import Follower
+from twinform.compiler.mjcf_remainder import AdoptKept
 from twinform.compiler.request import ConversionRequest
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Location, SideFile
 from twinform.diagnostics.rules import EDIT_CONFLICT
 from twinform.ir import Document, Link, walk
+from twinform.passes import Pipeline
 from twinform.request_options import Language
 
 
@@ -197,6 +199,9 @@ def _written_anew(found: SyncedFile, follower: Follower) -> SyncedFile:
         CompileError: the source cannot be converted.
     """
     name, request = follower.edited.path, replace(follower.request, comments=True)
+    models = follower.into.document.models if found.format == "mjcf" and follower.into.document else ()
+    if models:
+        request = replace(request, passes=Pipeline((*request.passes, AdoptKept.of(models[0]))))
     made = run_conversion(request, name, follower.load_options, name=name)
     return replace(
         found,
