@@ -5,7 +5,8 @@ programs that save MJCF write them as they are, and other readers of XML take a 
 """
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
+from hashlib import sha256
 from typing import Any, NamedTuple
 
 from lxml import etree
@@ -28,6 +29,12 @@ SHAPE_OF = "shape"
 """The annotation on a visual or collision with the shape for which a file stands, or whose URI became a path."""
 AXES = "axes"
 """The annotation on an inertial with the orientation of its axes, which MJCF has in the axes of the body."""
+ATTACHED = "attached"
+"""The annotation on a frame with what it is attached to, where that is not the link that its site is in."""
+LOOP = "loop"
+"""The annotation on a joint that closes a loop, which is a constraint in MJCF and is kept as a whole."""
+PARTS = "parts"
+"""The annotation on a sensor with the elements that it became, and a digest by which an edit of them is seen."""
 KINDS: Mapping[str, type[Node]] = {
     DOCUMENT: Document, "world": World, "model": Model, "link": Link, "joint": Joint, "frame": Frame, "light": Light,
 }  # fmt: skip
@@ -117,6 +124,22 @@ def read_node(data: str, kind: str, source: Source) -> Node:
     if kind == DOCUMENT:
         values["format"] = Format.SDF
     return maker(KINDS[kind])(values)
+
+
+def digest_of(elements: Iterable[tuple[str, Mapping[str, str]]]) -> str:
+    """A digest of elements of MJCF, in any order and with numbers of five digits: MuJoCo saves six."""
+    lines = sorted(
+        " ".join([tag, *(f"{name}={_rounded(value)}" for name, value in sorted(attributes.items()))])
+        for tag, attributes in elements
+    )
+    return sha256("\n".join(lines).encode()).hexdigest()[:16]
+
+
+def _rounded(value: str) -> str:
+    try:
+        return " ".join(f"{float(word):.5g}" for word in value.split())
+    except ValueError:
+        return value
 
 
 def _strip_layout(xml: XmlElement) -> None:

@@ -15,7 +15,7 @@ from twinform.dataclass import dataclass
 from twinform.ir import Axis, Dynamics, Limit, Node, Opaque, Surface
 from twinform.ir.node import NOT_CONTENT
 from twinform.ir.record import field_values, fields_of
-from twinform.passes.carriers.annotations import find_annotation, with_annotation, without_annotation
+from twinform.passes.carriers.annotations import find_annotation, is_annotation, with_annotation, without_annotation
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 
@@ -176,6 +176,12 @@ def written_name(partial: Node) -> str | None:
     """The name that the target has for a node: its own, unless a note gives another one."""
     written = find_annotation(partial, WRITTEN)
     return getattr(partial, "name", None) if written is None else written.get("as")
+
+
+def written_names(partial: Node) -> list[str]:
+    """The names that the target has for a node of which it makes several; its own if no note gives any."""
+    found = [part.element.get("as") or "" for part in partial.opaque if part.element and is_annotation(part, WRITTEN)]
+    return found or [getattr(partial, "name", None) or ""]
 
 
 def _key(node: Node, name: str | None, place: int) -> tuple[type[Node], str | int]:

@@ -3,24 +3,21 @@
 from collections.abc import Iterable
 
 from twinform.ir import Joint, Link, Model
-from twinform.passes.carriers.carriers import is_ours
-from twinform.passes.carriers.partial_nodes import WRITTEN
+from twinform.passes.carriers.annotations import find_annotation
+from twinform.passes.carriers.mjcf_texts import LOOP
+from twinform.passes.carriers.partial_nodes import written_names
 
 
 def join_joints(model: Model, partials: Iterable[Joint]) -> Model:
     """The model with one joint for the chain of those that a carrier names, as long as they are still one."""
     for partial in partials:
-        names = [
-            part.element.get("as")
-            for part in partial.opaque
-            if is_ours(part) and part.element and part.element.name.endswith(f"}}{WRITTEN}")
-        ]
-        if len(names) > 1:
+        names = written_names(partial)
+        if len(names) > 1 and find_annotation(partial, LOOP) is None:
             model = _joined(model, partial, names)
     return model
 
 
-def _joined(model: Model, partial: Joint, names: list[str | None]) -> Model:
+def _joined(model: Model, partial: Joint, names: list[str]) -> Model:
     by_name = {each.name: each for each in model.joints}
     chain = [by_name[name] for name in names if name in by_name]
     between = [each.child for each in chain[:-1]]

@@ -9,14 +9,15 @@ from typing import TypeVar
 from twinform.compiler.input.mjcf.carried_texts import CarriedText, nodes_of, report_stale
 from twinform.compiler.input.mjcf.joined_joints import join_joints
 from twinform.compiler.input.mjcf.one_model import one_model
+from twinform.compiler.input.mjcf.renamed_parts import renamed_parts
 from twinform.compiler.input.mjcf.restore_contacts import note_contacts, settle_contacts
+from twinform.compiler.input.mjcf.restore_sensors import sensors_back, without_parts_of_sensors
 from twinform.compiler.input.mjcf.spellings import with_spellings
 from twinform.compiler.input.mjcf.usual_remainders import without_usual
 from twinform.diagnostics import DiagnosticSink
-from twinform.ir import Document, Format, Frame, Joint, Link, Model, Node, World
+from twinform.ir import Document, Format, Frame, Joint, Link, Model, Node, Opaque, Pose, World
 from twinform.ir.element import Namespaces
-from twinform.ir.frames import WORLD
-from twinform.ir.scopes import SCOPE
+from twinform.ir.frames import MODEL, WORLD, FrameGraph
 from twinform.passes.carriers.annotations import (
     FROM,
     came_from,
@@ -28,13 +29,11 @@ from twinform.passes.carriers.annotations import (
 )
 from twinform.passes.carriers.carriers import NAMESPACE
 from twinform.passes.carriers.carriers import PREFIX as TF
-from twinform.passes.carriers.mjcf_texts import DOCUMENT, PREFIXES
-from twinform.passes.carriers.partial_nodes import Merging, written_name
-from twinform.passes.legalise.changed_names import NAME, Names, renamed
+from twinform.passes.carriers.mjcf_texts import ATTACHED, DOCUMENT, LOOP, PREFIXES
+from twinform.passes.carriers.partial_nodes import REST, WRITTEN, Merging, is_rest, written_names
 from twinform.passes.legalise.to_sdf.restore_frames import RestoreFrames
 from twinform.passes.legalise.to_sdf.restore_nested import NameScopes, RestoreNested
 from twinform.passes.sdf_versions import change_version
-from twinform.passes.shared.poses import NESTED
 from twinform.schemas import DEFAULT_SDF_VERSION, XmlElement, versions_of
 
 AnyPart = TypeVar("AnyPart", Link, Joint, Frame)
@@ -77,8 +76,11 @@ class _Merged:
         model = without_usual(one_model(self.lowered, is_free=_is_free(self.root)))
         model = note_contacts(model, self.root).copy(self_collide=None)
         model = self._named(model)
+        back = sensors_back(self.links, self.joints, self.root, self.sink)
+        self.links, self.joints = back.links, back.joints
+        model = without_parts_of_sensors(model, back.parts)
         model = join_joints(model, self.joints)
-        model = self._merged(model)
+        model = self._attached(self._merged(self._with_loops(model)))
         for stale in self.merging.stale:
             what = f"{type(stale).__name__.lower()} {getattr(stale, 'name', None) or ''}".strip()
             report_stale(self.sink, f"what a carrier holds of the {what} belongs to nothing in the file", stale.source)
@@ -86,35 +88,61 @@ class _Merged:
 
     def _named(self, model: Model) -> Model:
         """The model whose parts have the names that they had before they were written."""
-        scopes = {each.name for each in self.frames if find_annotation(each, NESTED) is not None}
-        names: Names = {}
-        for part, nodes, partials in (
-            ("link", model.links, self.links),
-            ("joint", model.joints, self.joints),
-            ("frame", model.frames, self.frames),
-        ):
-            known = {written_name(each): each.name for each in partials}
-            for node in nodes:
-                old = _old_name(node, known, scopes)
-                if old != node.name:
-                    names[part, node.name] = old
-        fixed = {each.child: each.name for each in self.joints if each.type == "fixed"}
-        links = {node.name: names.get(("link", node.name), node.name) for node in model.links}
-        for joint in model.joints:
-            old = fixed.get(links.get(joint.child or "", joint.child))
-            if joint.type == "fixed" and old is not None:
-                names["joint", joint.name] = old
-        plain = {
-            field: tuple(without_annotation(each, NAME, _MADE_NAME) for each in getattr(model, field))
-            for field in ("links", "joints", "frames")
-        }
-        return renamed(model.copy(**plain), names, Format.SDF)
+        return renamed_parts(model, self.links, self.joints, self.frames)
+
+    def _with_loops(self, model: Model) -> Model:
+        """The model with the joints that closed loops in place of the constraints that do, if these still do."""
+        for partial in self.joints:
+            if find_annotation(partial, LOOP) is None:
+                continue
+            names = written_names(partial)
+            found = [each for each in model.joints if each.name in names]
+            ends = {(each.parent, each.child) for each in found}
+            if len(found) != len(names) or ends != {(partial.parent, partial.child)}:
+                self._stale(f"the loop that joint {partial.name!r} closed is another one now", partial)
+            else:
+                whole = without_annotation(partial, LOOP, REST, WRITTEN)
+                kept = tuple(each for each in model.joints if each.name not in names)
+                model = model.copy(joints=(*kept, whole))
+        self.joints = [each for each in self.joints if find_annotation(each, LOOP) is None]
+        return model
+
+    def _attached(self, model: Model) -> Model:
+        """The model whose frames are attached to what they were, where that still moves with the same link."""
+        graph = FrameGraph(model)
+
+        def attached(frame: Frame) -> Frame:
+            found = find_annotation(frame, ATTACHED)
+            if found is None:
+                return frame
+            frame = without_annotation(frame, ATTACHED)
+            to = found.get("to") or None
+            if to is not None and not graph.knows(to):
+                self._stale(f"there is no frame {to!r} any more, to which {frame.name!r} was attached", frame)
+                return frame
+            if graph.body(to or MODEL, kind="frame" if to else "model") != frame.attached_to:
+                self._stale(f"frame {frame.name!r} does not move with {to or MODEL!r} any more", frame)
+                return frame
+            pose = frame.pose or Pose.unchecked()
+            return frame.copy(attached_to=to, pose=pose.copy(relative_to=pose.relative_to or frame.attached_to))
+
+        return model.copy(frames=tuple(map(attached, model.frames)))
 
     def _merged(self, model: Model) -> Model:
         partial = next((each for each in nodes_of(self.texts, "model") if isinstance(each, Model)), None)
         made = frozenset(each.name for each in model.joints if is_synthesized(each))
         joints = tuple(without_synthesized(each) if each.name in made else each for each in model.joints)
-        links = self.merging.merge_all(model.links, tuple(without_annotation(each, "written") for each in self.links))
+        whole = {each.name: each for each in self.links if not is_rest(each)}
+        between = tuple(
+            whole[each.name].copy(pose=each.pose, source=each.source)
+            if each.name in whole and is_synthesized(each)
+            else each
+            for each in model.links
+        )
+        self.links = [
+            each for each in self.links if each.name not in whole or not any(each.name == one.name for one in between)
+        ]
+        links = self.merging.merge_all(between, tuple(without_annotation(each, WRITTEN) for each in self.links))
         ends = {WORLD, *(each.name for each in links), *(each.name for each in (*model.frames, *self.frames))}
         joints = self.merging.merge_all(joints, tuple(self._typed(joints, ends)))
         frames = self.merging.merge_all(model.frames, tuple(self.frames))
@@ -132,7 +160,7 @@ class _Merged:
         known = {each.name for each in joints}
         for each in self.joints:
             if each.name in known or (each.parent in ends and each.child in ends):
-                yield without_annotation(each, "written")
+                yield without_annotation(each, WRITTEN)
             else:
                 self._stale(f"there is nothing any more that joint {each.name!r} holds", each)
 
@@ -161,14 +189,14 @@ class _Merged:
 
     def _restored(self, model: Model) -> Model:
         """The model whose poses are written in their frames and notations, with models in it."""
-        if came_from(model, Format.URDF):
-            return model
+        origin = find_annotation(model, FROM)
         version = versions_of("sdf")[-1]
-        model = with_annotation(model, FROM, attributes={"format": Format.SDF.value, "version": version})
+        model = with_annotation(without_annotation(model, FROM), FROM, attributes={"format": "sdf", "version": version})
         steps = (NameScopes.unchecked(), RestoreFrames.unchecked(), RestoreNested.unchecked())
         for step in steps:
             model = step.run_model(model, self.sink)
-        return without_annotation(model, FROM)
+        model = without_annotation(model, FROM)
+        return model if origin is None else model.copy(opaque=(Opaque.unchecked(element=origin), *model.opaque))
 
     def _as_document(self, model: Model) -> Document:
         newest = versions_of("sdf")[-1]
@@ -209,13 +237,3 @@ class _Merged:
 
     def _stale(self, message: str, node: Node) -> None:
         report_stale(self.sink, message, node.source)
-
-
-def _old_name(node: Node, known: dict[str | None, str], scopes: set[str]) -> str:
-    """The name that a part had: the one that a carrier gives, or the one in the file if that is in a known scope."""
-    own: str = getattr(node, "name", "")
-    found = find_annotation(node, NAME)
-    written = found.text if found is not None and found.text else own
-    if written in known:
-        return known[written]
-    return written if written.rpartition(SCOPE)[0] in scopes else own

@@ -31,16 +31,20 @@ from twinform.ir import (
     Visual,
     World,
 )
-from twinform.ir.frames import MODEL, WORLD
+from twinform.ir.frames import MODEL, WORLD, FrameGraph
 from twinform.ir.transform import Transform
 from twinform.passes.carriers.annotations import FROM, annotation, came_from, is_synthesized
 from twinform.passes.carriers.carriers import NAMESPACE, to_element
 from twinform.passes.carriers.mjcf_texts import (
+    ATTACHED,
     AXES,
     DOCUMENT,
+    LOOP,
+    PARTS,
     PREFIXES,
     SHAPE_OF,
     bare_xml,
+    digest_of,
     text_element,
     text_name,
     xml_data,
@@ -119,7 +123,7 @@ class _Texts:
             )
         else:
             model = holder
-        keeper = UrdfKeeper(DiagnosticSink(), carriers=True, back=self.is_back)
+        keeper = UrdfKeeper(DiagnosticSink(), carriers=True)
         if model.models:
             model = flat_model(model, keeper)
         for step in (ResolveJointEnds.unchecked(), ExpressAxes.unchecked()):
@@ -155,7 +159,7 @@ class _Texts:
         if isinstance(left, World):
             return Left(self._without_parts(left))
         if isinstance(left, Sensor):
-            return Left(left, frozenset({EXISTENCE}))
+            return Left(node, frozenset({EXISTENCE}))
         if left is node:
             return None
         # A look that comes back is compared with the one that was written, and taken whole.
@@ -166,7 +170,11 @@ class _Texts:
             return said_of_limit(node, self.joint)
         if isinstance(node, Axis) and self.joint is not None and self.joint.type not in _DIRECTED:
             return None if self.joint.type == "fixed" else frozenset()
+        if isinstance(node, Joint) and node.name in self.closing:
+            return frozenset({EXISTENCE})
         if isinstance(node, Joint) and node.type == "fixed" and self.is_back:
+            return frozenset({"name", "parent", "pose"})
+        if isinstance(node, Joint) and node.child in self.hidden:
             return frozenset({"name", "parent", "pose"})
         if isinstance(node, Visual | Collision) and self._key(node) not in self.geoms:
             return None
@@ -192,15 +200,41 @@ class _Texts:
             found += self._shape_note(node)
         if isinstance(node, Inertial) and node.inertia is not None and node.pose is not None:
             found += _axes_note(node, node.pose)
-        if self.is_back:
-            return tuple(found)
-        if isinstance(node, Model):
+        if isinstance(node, Sensor) and id(node) in self.context.left:
+            return (*found, self._parts_note(node))
+        if isinstance(node, Joint) and node.name in self.closing:
+            return (*found, annotation(LOOP))
+        if isinstance(node, Frame):
+            found += self._attached(node)
+        if isinstance(node, Model) and not self.is_back:
             found += self._offset()
         pose: Pose | None = getattr(node, "pose", None)
         attributes = pose_attributes(pose)
+        if self.is_back and not isinstance(node, Frame):  # in URDF these frames go without saying
+            attributes.pop("relative_to", None)
         if attributes and self.said(node) is not None:
             found.append(annotation(POSE, attributes=attributes))
         return tuple(found)
+
+    def _attached(self, frame: Frame) -> list[Opaque]:
+        """The annotation of what a frame is attached to, if that is not the link that its site is in."""
+        body = self.graph.body(frame.name, kind="frame")
+        return [] if frame.attached_to == body else [annotation(ATTACHED, attributes={"to": frame.attached_to or ""})]
+
+    @cached_property
+    def graph(self) -> FrameGraph:
+        """The frames of the flattened model."""
+        return FrameGraph(self.flat)
+
+    @cached_property
+    def closing(self) -> frozenset[str]:
+        """The joints that close loops."""
+        return frozenset(each.name for each in self.context.tree.closing)
+
+    @cached_property
+    def hidden(self) -> frozenset[str]:
+        """The links between joints of one body, which are no bodies."""
+        return frozenset(each.name for each in self.flat.links if each.name not in self.context.written_bodies)
 
     def _provenance(self, document: Document) -> list[Opaque]:
         """The annotations of the version of SDF that the source had, and of the prefixes in it."""
@@ -240,6 +274,27 @@ class _Texts:
         holder = to_element(Geometry.unchecked(shape=kept), "geometry", "sdf")
         note = annotation(SHAPE_OF, attributes={"file": file})
         return [note.copy(element=note.element and note.element.copy(children=holder.children))]
+
+    def _parts_note(self, sensor: Sensor) -> Opaque:
+        """The annotation of the elements that a sensor has become."""
+        readings = [each for each in self.context.sections.get("sensor", ()) if each.source is sensor.source]
+        sites = {each.get("site") or each.get("objname") for each in readings}
+        in_bodies = [
+            each
+            for each in self._in_bodies
+            if (each.name == "camera" and each.source is sensor.source)
+            or (each.name == "site" and each.get("name") in sites)
+        ]
+        parts = [*readings, *in_bodies]
+        names = "\n".join(f"{each.name} {each.get('name')}" for each in parts)
+        digest = digest_of((each.name, dict(each.attributes)) for each in parts)
+        return annotation(PARTS, names, {"digest": digest})
+
+    @cached_property
+    def _in_bodies(self) -> list[Element]:
+        """The sites and cameras of all bodies."""
+        bodies = self.context.sections.get("worldbody", [])
+        return [each for body in bodies for each in body.walk() if each.name in {"camera", "site"}]
 
     @cached_property
     def geom_elements(self) -> dict[str, Element]:

@@ -1,0 +1,78 @@
+"""The names that links, joints and frames had before they were written as MJCF, which has names for each kind."""
+
+from collections.abc import Sequence
+
+from twinform.compiler.input.mjcf.remainders import MADE_NAME
+from twinform.ir import Format, Frame, Joint, Link, Model
+from twinform.ir.scopes import SCOPE
+from twinform.passes.carriers.annotations import find_annotation, is_synthesized, without_annotation
+from twinform.passes.carriers.partial_nodes import written_name
+from twinform.passes.legalise.changed_names import NAME, Names, renamed
+from twinform.passes.shared.nodes import unique_name
+from twinform.passes.shared.poses import NESTED
+from twinform.passes.structure.rename_parts import Part
+
+Node = Link | Joint | Frame
+_FIELDS: tuple[tuple[Part, str], ...] = (("link", "links"), ("joint", "joints"), ("frame", "frames"))
+
+
+def renamed_parts(model: Model, links: Sequence[Link], joints: Sequence[Joint], frames: Sequence[Frame]) -> Model:
+    """The model with the names of its partial nodes, and otherwise those of the file.
+
+    A joint that is fixed, and a link between two joints of one body, have no names there: they are known by what they
+    hold, and by what holds them.
+    """
+    scopes = {each.name for each in frames if find_annotation(each, NESTED) is not None}
+    names: Names = {}
+    free: list[tuple[Part, Node]] = []
+    for (part, field), partials in zip(_FIELDS, (links, joints, frames), strict=True):
+        known = {written_name(each): each.name for each in partials}
+        for node in getattr(model, field):
+            old = known.get(_written(node))
+            if old is None:
+                free.append((part, node))
+            else:
+                names[part, node.name] = old
+    _name_hidden(model, joints, names)
+    _name_fixed(model, joints, names)
+    taken = set(names.values())
+    for part, node in free:
+        if (part, node.name) not in names:
+            written = _written(node)
+            scope = written.rpartition(SCOPE)[0]
+            wish = written if not scope or scope in scopes else node.name
+            new = unique_name(wish, taken)
+            names[part, node.name] = new
+            taken.add(new)
+    plain = {
+        field: tuple(without_annotation(each, NAME, MADE_NAME) for each in getattr(model, field))
+        for _, field in _FIELDS
+    }
+    changed = {key: new for key, new in names.items() if key[1] != new}
+    return renamed(model.copy(**plain), changed, Format.SDF)
+
+
+def _written(node: Node) -> str:
+    """The name of a part in the file."""
+    found = find_annotation(node, NAME)
+    return found.text if found is not None and found.text else node.name
+
+
+def _name_hidden(model: Model, partials: Sequence[Joint], names: Names) -> None:
+    """Name the links between joints of one body."""
+    hidden = {each.name for each in model.links if is_synthesized(each)}
+    children = {written_name(each): each.child for each in partials if each.child}
+    for joint in model.joints:
+        old = children.get(_written(joint))
+        if joint.child in hidden and old is not None:
+            names["link", joint.child] = old
+
+
+def _name_fixed(model: Model, partials: Sequence[Joint], names: Names) -> None:
+    """Name the fixed joints, by the links that they hold."""
+    fixed = {each.child: each.name for each in partials if each.type == "fixed"}
+    for joint in model.joints:
+        child = names.get(("link", joint.child or ""), joint.child)
+        old = fixed.get(child)
+        if joint.type == "fixed" and old is not None:
+            names["joint", joint.name] = old

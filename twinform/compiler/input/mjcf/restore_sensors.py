@@ -1,0 +1,117 @@
+"""Sensors of SDF that became sites, cameras and readings of MJCF: they come back while these are as written."""
+
+from collections.abc import Iterable
+from typing import NamedTuple, TypeVar
+
+from twinform.compiler.input.mjcf.carried_texts import report_stale
+from twinform.diagnostics import DiagnosticSink
+from twinform.ir import Element, Frame, Joint, Link, Model, Node, Opaque, Sensor, replace_fields, rewrite
+from twinform.passes.carriers.annotations import find_annotation, without_annotation
+from twinform.passes.carriers.mjcf_texts import PARTS, digest_of
+from twinform.passes.carriers.partial_nodes import REST
+from twinform.passes.legalise.to_mjcf.kept_mjcf import KEPT
+from twinform.schemas import XmlElement
+
+AnyHolder = TypeVar("AnyHolder", Link, Joint)
+PartName = tuple[str, str]
+"""The tag and the name of an element."""
+
+
+class SensorsBack(NamedTuple):
+    """The partial links and joints with the sensors that come back, and the elements that stand for these."""
+
+    links: list[Link]
+    joints: list[Joint]
+    parts: frozenset[PartName]
+
+
+def sensors_back(links: Iterable[Link], joints: Iterable[Joint], root: XmlElement, sink: DiagnosticSink) -> SensorsBack:
+    """Find the sensors whose elements are in a canonical tree as they were written; the others are as they stand."""
+    elements = {(str(each.tag), each.get("name") or ""): each for each in root.iter()}
+    used: set[PartName] = set()
+
+    def back(sensor: Sensor) -> Sensor | None:
+        note = find_annotation(sensor, PARTS)
+        if note is None:
+            return sensor
+        names = [_part_name(line) for line in (note.text or "").splitlines()]
+        found = [elements[name] for name in names if name in elements]
+        digest = digest_of((str(each.tag), {str(k): str(v) for k, v in each.items()}) for each in found)
+        if not found or digest != note.get("digest"):
+            state = "was edited" if found else "is gone"
+            report_stale(sink, f"what sensor {sensor.name!r} is in MJCF {state}", sensor.source)
+            return None
+        used.update(names)
+        return without_annotation(sensor, PARTS, REST)
+
+    def kept(node: Link | Joint) -> tuple[Sensor, ...]:
+        return tuple(made for each in node.sensors if (made := back(each)) is not None)
+
+    return SensorsBack(
+        [replace_fields(each, sensors=kept(each)) for each in links],
+        [replace_fields(each, sensors=kept(each)) for each in joints],
+        frozenset(used),
+    )
+
+
+def _part_name(line: str) -> PartName:
+    tag, _, name = line.partition(" ")
+    return tag, name
+
+
+def without_parts_of_sensors(model: Model, parts: frozenset[PartName]) -> Model:
+    """The model without what the elements of its sensors were lowered to."""
+    if not parts:
+        return model
+
+    def without(node: Node) -> Node:
+        return replace_fields(node, opaque=_opaque(node.opaque, parts))
+
+    def bare(node: AnyHolder) -> AnyHolder:
+        return replace_fields(node, sensors=tuple(each for each in node.sensors if not _is_made_of(each, parts)))
+
+    model = model.copy(
+        links=tuple(map(bare, model.links)),
+        joints=tuple(map(bare, model.joints)),
+        frames=tuple(each for each in model.frames if not _is_site(each, parts)),
+    )
+    return without_empty(rewrite(model, Node, without))
+
+
+def without_empty(model: Model) -> Model:
+    """The model without remainders that hold nothing."""
+
+    def without(node: Node) -> Node:
+        return replace_fields(node, opaque=tuple(part for part in node.opaque if not _is_empty(part)))
+
+    return rewrite(model, Node, without)
+
+
+def _is_empty(part: Opaque) -> bool:
+    return part.element is not None and part.element.name == KEPT and not part.element.children
+
+
+def _is_site(frame: Frame, parts: frozenset[PartName]) -> bool:
+    return ("site", frame.source.key if frame.source else frame.name) in parts
+
+
+def _is_made_of(sensor: Sensor, parts: frozenset[PartName]) -> bool:
+    """Whether a sensor was lowered from elements that stand for one that comes back."""
+    kept = [one for part in sensor.opaque if part.element and part.element.name == KEPT for one in part.element.walk()]
+    readings = {(each.name, each.get("name") or "") for each in kept}
+    return bool(readings & parts) or ("camera", sensor.name or "") in parts
+
+
+def _opaque(parts: tuple[Opaque, ...], names: frozenset[PartName]) -> tuple[Opaque, ...]:
+    return tuple(
+        part.copy(element=_without(part.element, names)) if part.element and part.element.name == KEPT else part
+        for part in parts
+    )
+
+
+def _without(element: Element, names: frozenset[PartName]) -> Element:
+    children = tuple(
+        _without(each, names) for each in element.children if (each.name, each.get("name") or "") not in names
+    )
+    kept = tuple(each for each in children if each.children or each.attributes)
+    return element.copy(children=kept)
