@@ -5,6 +5,7 @@ Every parser raises `ValueError` for text that the type's XSD pattern refuses, a
 
 import re
 from collections.abc import Callable
+from functools import partial
 from math import isfinite
 from typing import TypeVar
 
@@ -225,6 +226,24 @@ def _list(parse_word: Callable[[str], _Word], least: int, most: int | None) -> C
     return parse
 
 
+def _loose_numbers(least: int, most: int | None) -> Callable[[str], tuple[float, ...]]:
+    """Return the parser of several numbers, which may be infinite or none."""
+    parse_each = _list(_loose_float, least, most)
+
+    def parse(text: str) -> tuple[float, ...]:
+        try:
+            values = tuple(map(float, text.split(None, -1 if most is None else most)))
+        except ValueError:
+            return parse_each(text)
+        # a finite sum has finite terms, and is quicker to see
+        is_plain = isfinite(sum(values)) and text.isascii() and "_" not in text
+        if is_plain and len(values) >= least and (most is None or len(values) <= most):
+            return values
+        return parse_each(text)
+
+    return parse
+
+
 def _words(text: str) -> tuple[str, ...]:
     return tuple(filter(None, _BLANKS.split(text)))  # names may have blanks of other scripts
 
@@ -242,13 +261,13 @@ LENGTHS = {
 _COUNTED = {1: "one", 2: "two", 3: "three", 4: "four", 5: "five", 6: "six", 7: "seven", 10: "ten"}
 
 
-def _counted_lists(base: str, parse_word: Parser, called: str) -> dict[str, ValueType]:
-    """Return the types of lists by their names, for numbers that are `called` something in messages."""
+def _counted_lists(base: str, parser: Callable[[int, int], Parser], called: str) -> dict[str, ValueType]:
+    """Return the types of lists by their names; `parser` makes the parser of a length, `called` stands in messages."""
     made: dict[str, ValueType] = {}
     for least, most in LENGTHS[base]:
         count = _COUNTED.get(most, str(most))
         count = count if least == most else f"{_COUNTED[least]} to {count}"
-        made[list_type(base, least, most)] = ValueType(_list(parse_word, least, most), f"{count} {called}")
+        made[list_type(base, least, most)] = ValueType(parser(least, most), f"{count} {called}")
     return made
 
 
@@ -258,15 +277,15 @@ _MJCF = {
     "bool": ValueType(_exact_bool, "true or false"),
     "int": ValueType(_whole, "a whole number"),
     "double": ValueType(_loose_float, "a number"),
-    "vector3": ValueType(_list(_loose_float, 3, 3), "three numbers"),
-    "quaternion": ValueType(_list(_loose_float, 4, 4), "four numbers: w x y z"),
-    "color4": ValueType(_list(_loose_float, 4, 4), "four numbers: red green blue alpha"),
-    "doubles": ValueType(_list(_loose_float, 0, None), "numbers"),
+    "vector3": ValueType(_loose_numbers(3, 3), "three numbers"),
+    "quaternion": ValueType(_loose_numbers(4, 4), "four numbers: w x y z"),
+    "color4": ValueType(_loose_numbers(4, 4), "four numbers: red green blue alpha"),
+    "doubles": ValueType(_loose_numbers(0, None), "numbers"),
     "ints": ValueType(_list(_whole, 0, None), "whole numbers"),
     "memory": ValueType(_spelled(_MEMORY), "a number of bytes, perhaps with K, M, G, T, P or E behind it, or -1"),
     "axes": ValueType(_spelled(_AXES), "three letters of x, y, z, X, Y, Z"),
-    **_counted_lists("double", _loose_float, "numbers"),
-    **_counted_lists("int", _whole, "whole numbers"),
+    **_counted_lists("double", _loose_numbers, "numbers"),
+    **_counted_lists("int", partial(_list, _whole), "whole numbers"),
 }
 
 VALUE_TYPES = {"urdf": _URDF, "sdf": _SDF, "mjcf": _MJCF}

@@ -2,7 +2,7 @@
 
 import pytest
 
-from twinform.schemas.facts import parse_facts
+from twinform.schemas.facts import FactDefinitions, parse_facts
 
 _FIELD_BELOW_NOTHING = """\
 visual
@@ -13,6 +13,17 @@ visual
   material   ?          -> material
     shader   ?
       normal_map  ?  string  -> normal_map"""
+
+_GROUPS = """\
+body
+  @name   ?  string
+  & turned
+  @mass   ?  double
+turned
+  & angles
+  @quat   ?  string
+angles
+  @euler  ?  string"""
 
 
 @pytest.mark.parametrize(
@@ -33,3 +44,15 @@ def test_a_mistake_in_a_table_is_an_error_with_its_line(text: str, complaint: st
 def test_a_container_that_makes_no_node_says_so() -> None:
     (visual,) = parse_facts(_FIELD_BELOW_NOTHING.replace("?", "?  -> .", 1).splitlines(), "t.facts")
     assert [row.place for row in visual.rows] == ["."]
+
+
+def test_rows_of_another_definition_stand_where_it_is_named() -> None:
+    definitions = FactDefinitions()
+    definitions.add(_GROUPS.splitlines(), "t.facts")
+    assert [row.name for row in definitions["body"].rows] == ["@name", "@euler", "@quat", "@mass"]
+    assert [row.name for row in definitions["turned"].rows] == ["@euler", "@quat"]
+
+
+def test_a_row_says_of_what_its_value_is_the_name() -> None:
+    (sensor,) = parse_facts(["sensor", "  @objname  1  string  names=body|site"], "t.facts")
+    assert sensor.rows[0].names == ("body", "site")

@@ -61,6 +61,15 @@ def test_units_defaults_and_versions_are_documented() -> None:
     assert words.of(("joint", "thread_pitch"), rows["joint", "thread_pitch"]).endswith("Deprecated.")
 
 
+def test_what_a_value_names_is_documented() -> None:
+    words = Documentation(table("mjcf"))
+    rows = dict(rows_with_paths(table("mjcf")))
+    sentence = words.of(("frame_sensor", "@objname"), rows["frame_sensor", "@objname"])
+    assert sentence == "The name of the object. The name of a body, geom, site or camera."
+    sensor = words.of(("actuator_sensor", "@actuator"), rows["actuator_sensor", "@actuator"])
+    assert sensor == "The actuator. The name of an actuator."
+
+
 def _fields(data: Any) -> Iterator[tuple[str, dict[str, Any]]]:
     if is_array(data):
         for each in data:
