@@ -23,8 +23,6 @@ _OUTPUTS = {
 }  # fmt: skip
 _EULER = 6
 """How many numbers a pose has whose orientation is not a quaternion."""
-SAID = frozenset({"camera/horizontal_fov", "camera/image/width", "camera/image/height"})
-"""What MJCF says of a camera, but for its pose."""
 
 
 def camera_element(

@@ -5,7 +5,7 @@ Both measure the acceleration without gravity: at rest they report 9.81 m/s^2 up
 
 from twinform.ir import Sensor
 from twinform.ir.transform import Transform
-from twinform.passes.legalise.to_mjcf.said_parts import child_text, untyped, without_elements
+from twinform.passes.legalise.to_mjcf.said_parts import child_text, untyped
 from twinform.passes.legalise.to_mjcf.sensor_parts import SensorParts, common_noise, reading
 from twinform.passes.legalise.to_mjcf.sites import sensor_site
 from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext
@@ -31,14 +31,4 @@ def imu_parts(context: MjcfContext, sensor: Sensor, site: str, place: Transform)
     if child_text(untyped(sensor, "imu"), "enable_orientation") not in _FALSE:
         name = context.name("sensor", f"{site}_framequat", where)
         readings.append(reading("framequat", name, objtype="site", objname=site))
-    return SensorParts([sensor_site(site, place)], readings, _left(sensor))
-
-
-def _left(sensor: Sensor) -> Sensor:
-    """What the readings do not say: noises that differ by axis, and the frame of the orientation."""
-    said = {
-        f"imu/{group}"
-        for group in ("linear_acceleration", "angular_velocity")
-        if common_noise(sensor, "imu", group) is not None
-    }
-    return without_elements(sensor, {*said, "imu/enable_orientation"})
+    return SensorParts([sensor_site(site, place)], readings)

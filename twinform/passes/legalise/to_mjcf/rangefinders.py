@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from twinform.ir import Element, Pose, Sensor
 from twinform.ir.transform import Transform
-from twinform.passes.legalise.to_mjcf.said_parts import child_number, untyped, without_elements
+from twinform.passes.legalise.to_mjcf.said_parts import child_number, untyped
 from twinform.passes.legalise.to_mjcf.sensor_parts import SensorParts, reading, single_noise
 from twinform.passes.legalise.to_mjcf.sites import sensor_site
 from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext
@@ -42,10 +42,11 @@ def rangefinder_parts(context: MjcfContext, sensor: Sensor, wanted: str, place: 
         return None
     noise = single_noise([lidar.find("noise") if lidar is not None else None])
     far = child_number(lidar, "range", "max", default=0.0)
-    parts = SensorParts([], [], _left(sensor))
-    for number, ray in enumerate(_rays(horizontal, vertical)):
+    rays = [place.compose(ray) for ray in _rays(horizontal, vertical)]
+    parts = SensorParts([], [])
+    for number, ray in enumerate(rays):
         site = context.name("site", f"{wanted}_ray_{number}", sensor.location)
-        parts.in_body.append(sensor_site(site, place.compose(ray)))
+        parts.in_body.append(sensor_site(site, ray))
         name = context.name("sensor", f"{wanted}_ray_{number}", sensor.location)
         cutoff = far if 0 < far < math.inf else None
         parts.readings.append(reading("rangefinder", name, noise, site=site, cutoff=cutoff))
@@ -69,7 +70,3 @@ def _rays(horizontal: Scan, vertical: Scan) -> Iterator[Transform]:
     for up in vertical.angles():
         for left in horizontal.angles():
             yield Transform.from_pose(Pose.unchecked(rpy=(0.0, -up, left))).compose(_ALONG_X)
-
-
-def _left(sensor: Sensor) -> Sensor:
-    return without_elements(sensor, ())

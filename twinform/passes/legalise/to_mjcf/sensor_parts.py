@@ -1,4 +1,4 @@
-"""What a sensor of SDF becomes in MJCF: what stands in the body, the readings, and what is left unsaid; its noise."""
+"""What a sensor of SDF becomes in MJCF: what stands in the body, and the readings; its noise."""
 
 from collections.abc import Iterable
 from typing import NamedTuple
@@ -13,11 +13,10 @@ _BESIDE = ("mean", "bias_mean", "bias_stddev", "dynamic_bias_stddev", "dynamic_b
 
 
 class SensorParts(NamedTuple):
-    """What a sensor becomes: sites and cameras of its body, elements of the section `sensor`, and what they leave."""
+    """What a sensor becomes: sites and cameras of its body, and elements of the section `sensor`."""
 
     in_body: list[Element]
     readings: list[Element]
-    left: Sensor
 
 
 def reading(kind: str, name: str | None, noise: float | None = None, **target: Value) -> Element:

@@ -8,11 +8,11 @@ from twinform.diagnostics import rules
 from twinform.ir import Element, Sensor
 from twinform.ir.kinematic_tree import JointBetween
 from twinform.ir.transform import Transform
-from twinform.passes.legalise.to_mjcf.cameras import SAID, camera_element
+from twinform.passes.legalise.to_mjcf.cameras import camera_element
 from twinform.passes.legalise.to_mjcf.imu_sensors import imu_parts
 from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements
 from twinform.passes.legalise.to_mjcf.rangefinders import MOST_RAYS, rangefinder_parts
-from twinform.passes.legalise.to_mjcf.said_parts import untyped, without_elements
+from twinform.passes.legalise.to_mjcf.said_parts import untyped
 from twinform.passes.legalise.to_mjcf.sensor_parts import SensorParts, reading
 from twinform.passes.legalise.to_mjcf.sites import sensor_site
 from twinform.passes.legalise.to_mjcf.wrench_sensors import wrench_parts
@@ -59,7 +59,7 @@ def _written(context: MjcfContext, sensor: Sensor, parts: SensorParts | None) ->
         return []
     for each in parts.readings:
         context.add("sensor", each.copy(source=sensor.source))
-    context.leave(sensor, parts.left)
+    context.leave(sensor, sensor)
     return parts.in_body
 
 
@@ -88,14 +88,13 @@ def _single_parts(context: MjcfContext, sensor: Sensor, site: str, place: Transf
         made = reading("magnetometer", name, site=site)
     else:
         made = reading("framepos", name, objtype="site", objname=site)
-    return SensorParts([sensor_site(site, place)], [made], sensor)
+    return SensorParts([sensor_site(site, place)], [made])
 
 
 def _camera_parts(context: MjcfContext, sensor: Sensor, body: Body, place: Transform) -> SensorParts | None:
     cameras = [part.element for part in sensor.opaque if part.element and part.element.name == "camera"]
     made = [element for each in cameras if (element := camera_element(context, sensor, each, body, place)) is not None]
-    left = without_elements(sensor, SAID) if len(cameras) == 1 else sensor
-    return SensorParts(made, [], left) if made else None
+    return SensorParts(made, []) if made else None
 
 
 def _lidar_parts(context: MjcfContext, sensor: Sensor, body: Body, place: Transform) -> SensorParts | None:
@@ -117,7 +116,7 @@ def _contact_parts(context: MjcfContext, sensor: Sensor, body: Body) -> SensorPa
             wanted = f"{body.scope}{sensor.name}" if len(names) == 1 else f"{body.scope}{sensor.name}_{each.name}"
             name = context.name("sensor", wanted, sensor.location)
             made.append(make_contact(name, geom))
-    return SensorParts([], made, sensor) if made else None
+    return SensorParts([], made) if made else None
 
 
 def make_contact(name: str | None, geom: str) -> Element:

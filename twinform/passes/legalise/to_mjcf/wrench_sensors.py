@@ -10,7 +10,7 @@ from twinform.ir import Sensor
 from twinform.ir.defaults import FORCE_TORQUE
 from twinform.ir.kinematic_tree import JointBetween
 from twinform.ir.transform import Transform
-from twinform.passes.legalise.to_mjcf.said_parts import child_text, untyped, without_elements
+from twinform.passes.legalise.to_mjcf.said_parts import child_text, untyped
 from twinform.passes.legalise.to_mjcf.sensor_parts import SensorParts, common_noise, reading
 from twinform.passes.legalise.to_mjcf.sites import sensor_site
 from twinform.passes.legalise.to_mjcf.writing_context import Body, MjcfContext
@@ -25,7 +25,8 @@ def wrench_parts(context: MjcfContext, sensor: Sensor, site: str, joint: JointBe
         for noise in (common_noise(sensor, "force_torque", kind),)
     ]
     _report_differences(context, sensor, joint)
-    return SensorParts([sensor_site(site, _place(context, sensor, joint, body))], readings, _left(sensor))
+    at = _place(context, sensor, joint, body)
+    return SensorParts([sensor_site(site, at)], readings)
 
 
 def _place(context: MjcfContext, sensor: Sensor, joint: JointBetween, body: Body) -> Transform:
@@ -63,11 +64,3 @@ def _report_differences(context: MjcfContext, sensor: Sensor, joint: JointBetwee
             f"force-torque sensor {sensor.name!r} reports in the axes of the parent; in MuJoCo they turn with the child"
         )
         context.sink.account(Fate.APPROXIMATED, rules.NOT_IN_MJCF, message, sensor.location, 0)
-
-
-def _left(sensor: Sensor) -> Sensor:
-    """What the readings do not say: noises that differ by axis, the frame and the direction."""
-    said = {
-        f"force_torque/{kind}" for kind in ("force", "torque") if common_noise(sensor, "force_torque", kind) is not None
-    }
-    return without_elements(sensor, said)
