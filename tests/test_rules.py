@@ -7,7 +7,7 @@ from pathlib import Path
 
 import twinform
 from twinform.diagnostics import Diagnostic, LedgerEntry, catalog
-from twinform.testing import Case, cases, pass_cases
+from twinform.testing import Case, cases, mjcf_cases, pass_cases
 
 _TESTS = Path(__file__).parent
 _CASES = _TESTS / "cases"
@@ -41,6 +41,7 @@ WITHOUT_CASE = {
     "no-thumbnail": "unit/compiler/packaging/test_thumbnail.py",
     "narrow-view": "portability/gazebo.toml",
     "nested-in-engine": "portability/gazebo.toml",
+    "nested-too-deeply": "unit/passes/legalise/to_mjcf/test_bodies.py",
     "nothing-to-add-to": "unit/passes/plugins/test_add_plugin.py",
     "open-mesh": "unit/passes/shared/test_mesh_solids.py",
     "oversized-file": "hostile/test_documents.py",
@@ -104,6 +105,8 @@ def _found() -> dict[str, set[str]]:
         found[_name(case)] = set(_of_conversion(case, None))
     for case in cases(_CASES / "versions"):
         found[_name(case)] = set(_of_conversion(case, "1.4"))
+    for case in mjcf_cases(_CASES / "to_mjcf"):
+        found[_name(case)] = set(case.rules)
     for case in pass_cases(_CASES / "passes"):
         found[_name(case)] = set(case.rules)
     return found

@@ -16,6 +16,8 @@ from lxml import etree
 
 Array = Any
 """An array of numpy."""
+_OFF: tuple[str, ...] = ("fusestatic", "discardvisual", "balanceinertia", "strippath")
+"""What MuJoCo does to a URDF unless it is told not to."""
 FREE, BALL, SLIDE, HINGE = range(4)
 """The types of joints, with MuJoCo's numbers."""
 

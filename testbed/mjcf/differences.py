@@ -96,7 +96,7 @@ def _motions(source: Compiled, made: Compiled, pairs: list[Pair], draw: np.rando
         here, there = source.model.qpos0.copy(), made.model.qpos0.copy()
         for pair in pairs:
             _draw(source, made, pair, here, there, draw)
-        speed = draw.uniform(-1.0, 1.0, source.model.nv)
+        speed = speeds(draw, source.model.nv)
         theirs = np.zeros(made.model.nv)
         theirs[order] = speed
         one, other = source.at(here, speed), made.at(there, theirs)
@@ -109,6 +109,11 @@ def _motions(source: Compiled, made: Compiled, pairs: list[Pair], draw: np.rando
         for first, second in geoms:
             compare(found, f"the pose of geom {first}", one.geoms[first], other.geoms[second])
     return list(found.values())
+
+
+def speeds(draw: np.random.Generator, count: int) -> Array:
+    """Velocities of so many freedoms, from -1 to 1."""
+    return draw.uniform(-1.0, 1.0, count)
 
 
 def _compare_poses(found: dict[str, str], kind: str, one: Mapping[str, Array], other: Mapping[str, Array]) -> None:

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from testbed.mjcf.compiled import Array, Compiled
-from testbed.mjcf.differences import POSES, TOLERANCE, compare
+from testbed.mjcf.differences import POSES, TOLERANCE, compare, speeds
 from twinform.ir.defaults import UNLIMITED
 from twinform.testing.oracles import drake
 
@@ -94,7 +94,7 @@ class _Match:
             there = made.model.qpos0.copy()
             for name, joint in self.joints.items():
                 self._draw(context, name, joint, there, draw)
-            speed = draw.uniform(-1.0, 1.0, plant.num_velocities())
+            speed = speeds(draw, plant.num_velocities())
             plant.SetVelocities(context, speed)
             turn = self._velocities(context)
             other = made.at(there, turn @ speed)
@@ -183,6 +183,6 @@ def _symmetric(turn: Array) -> Array:
     )
 
 
-def _end(value: float) -> float:
+def _end(value: Any) -> float:
     """An end of a range; what SDF writes for infinity is that."""
-    return math.copysign(math.inf, value) if abs(value) >= UNLIMITED else value
+    return math.copysign(math.inf, value) if abs(value) >= UNLIMITED else float(value)

@@ -16,19 +16,30 @@ from twinform.lazy import lazy_attributes
 
 if TYPE_CHECKING:
     from twinform.testing import strategies
-    from twinform.testing.case_files import Case, CaseCheckOptions, Finding, PassCase, cases, pass_cases
+    from twinform.testing.case_files import (
+        Case,
+        CaseCheckOptions,
+        Finding,
+        MjcfCase,
+        PassCase,
+        cases,
+        mjcf_cases,
+        pass_cases,
+    )
     from twinform.testing.properties import assert_pass_contract, assert_round_trip, assert_same_robot, assert_valid
 
 __all__ = [
     "Case",
     "CaseCheckOptions",
     "Finding",
+    "MjcfCase",
     "PassCase",
     "assert_pass_contract",
     "assert_round_trip",
     "assert_same_robot",
     "assert_valid",
     "cases",
+    "mjcf_cases",
     "pass_cases",
     "strategies",
 ]
@@ -36,7 +47,7 @@ __all__ = [
 _find_attribute = lazy_attributes(
     __name__,
     {
-        "twinform.testing.case_files": "Case CaseCheckOptions Finding PassCase cases pass_cases",
+        "twinform.testing.case_files": "Case CaseCheckOptions Finding MjcfCase PassCase cases mjcf_cases pass_cases",
         "twinform.testing.properties": "assert_pass_contract assert_round_trip assert_same_robot assert_valid",
     },
 )

@@ -2,8 +2,8 @@
 
 A comment `<!-- expect: severity rule-name -->` stands on the line that the finding is reported at; a line may have
 several. Errors and warnings must be listed; findings of severity `info` need not be, but must be found if they are.
-`NAME.expected.sdf` beside `NAME.urdf`, or the other way round, is the expected result of converting the file. Other
-files that a case reads lie in a folder `parts`.
+`NAME.expected.sdf` beside `NAME.urdf`, or the other way round, is the expected result of converting the file, and
+`NAME.expected.xml` that of converting it to MJCF. Other files that a case reads lie in a folder `parts`.
 
 Of a case for passes, a comment `<!-- passes: PIPELINE -->` names the pipeline, and `expect` lists what the passes
 report too. They run in the folder of the file. The expected result lies in a file of the same format,
@@ -110,6 +110,51 @@ def _is_case(path: Path, folder: Path) -> bool:
     return path.suffix in _SUFFIXES and ".expected" not in path.suffixes
 
 
+@dataclass(frozen=True)
+class MjcfCase(Case):
+    """A case file that is converted to MJCF, without carriers: what the elements of MJCF say is what it shows."""
+
+    @property
+    def found(self) -> Counter[Finding]:
+        """The findings that the conversion reports."""
+        return findings(self._outcome.diagnostics, self.path.name)
+
+    @property
+    def output_path(self) -> Path:
+        """The file of the expected output; there is none for a model that is refused."""
+        return self.path.with_suffix(".expected.xml")
+
+    @property
+    def rules(self) -> frozenset[str]:
+        """The names of all rules that were reported, by a finding or an entry of the ledger."""
+        return _rules_of(self._outcome)
+
+    @property
+    def text(self) -> str | None:
+        """The MJCF; None where the model is refused."""
+        return self._outcome.text if isinstance(self._outcome, Conversion) else None
+
+    @cached_property
+    def _outcome(self) -> Conversion | CompileError:
+        with chdir(self.path.parent):
+            try:
+                return convert(Path(self.path.name), to="mjcf", carriers=False, comments=False, strict=self.strict)
+            except CompileError as error:
+                return error
+
+
+def _rules_of(outcome: Conversion | CompileError) -> frozenset[str]:
+    found: tuple[Diagnostic | LedgerEntry, ...] = outcome.diagnostics
+    if isinstance(outcome, Conversion):
+        found = (*found, *outcome.ledger.entries)
+    return frozenset(each.rule.name for each in found)
+
+
+def mjcf_cases(folder: Path) -> list[MjcfCase]:
+    """Return every case for MJCF in a folder and the folders below it, sorted by name."""
+    return [MjcfCase(case.path) for case in cases(folder)]
+
+
 _PASSES = lazy_pattern(rf"<!--\s*+passes:(?P<pipeline>{IN_COMMENT})(?:-->)?")
 _FORMATS: dict[str, Literal["sdf", "urdf"]] = {".urdf": "urdf", ".sdf": "sdf"}
 
@@ -134,10 +179,7 @@ class PassCase(Case):
     @property
     def rules(self) -> frozenset[str]:
         """The names of all rules that were reported, by a finding or an entry of the ledger."""
-        findings: tuple[Diagnostic | LedgerEntry, ...] = self._outcome.diagnostics
-        if isinstance(self._outcome, Conversion):
-            findings = (*findings, *self._outcome.ledger.entries)
-        return frozenset(each.rule.name for each in findings)
+        return _rules_of(self._outcome)
 
     @property
     def output_path(self) -> Path:

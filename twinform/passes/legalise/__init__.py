@@ -78,3 +78,4 @@ def _ways() -> Iterator[tuple[Pass, ...]]:
     yield legalisation(Format.URDF, None, Target(Format.URDF, urdf_version="1.2"))
     yield legalisation(Format.SDF, versions[-1], Target(Format.URDF))
     yield legalisation(Format.SDF, versions[-1], Target(Format.MJCF))
+    yield legalisation(Format.URDF, None, Target(Format.MJCF))

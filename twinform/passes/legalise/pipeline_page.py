@@ -55,6 +55,8 @@ def directions() -> Iterator[ConversionDirection]:
     yield ConversionDirection(f"From URDF to SDF {usual.sdf_version}", Format.URDF, None, usual, older)
     remark = "A document of another version is upgraded to the newest one first."
     yield ConversionDirection("From SDF to URDF", Format.SDF, newest, Target(Format.URDF), remark)
+    remark = "A document of SDF takes the last two, behind those that make it one of the newest version."
+    yield ConversionDirection("From URDF to MJCF", Format.URDF, None, Target(Format.MJCF), remark)
     remark = "Of these, those run that lie between the two versions."
     yield ConversionDirection("From older SDF to newer", Format.SDF, oldest, Target(Format.SDF, newest), remark)
     yield ConversionDirection("From newer SDF to older", Format.SDF, newest, Target(Format.SDF, oldest), remark)

@@ -13,6 +13,8 @@ from twinform.schemas import format_value
 Value = str | float | bool | tuple[float, ...] | None
 """What an attribute may be made of; one that is None is not written."""
 Attributes = Iterable[tuple[str, Value]]
+_UNTURNED = (1.0, 0.0, 0.0, 0.0)
+"""The quaternion of no rotation."""
 
 
 def make_element(
@@ -38,10 +40,10 @@ def with_attributes(element: Element, attributes: Attributes) -> Element:
 def placement(transform: Transform) -> list[tuple[str, Value]]:
     """`pos` and `quat` of a transform; what is zero or no rotation is left out."""
     found: list[tuple[str, Value]] = []
-    if any(transform.translation):
-        found.append(("pos", position(transform)))
-    if not transform.is_unturned:
-        found.append(("quat", orientation(transform)))
+    if any(place := position(transform)):
+        found.append(("pos", place))
+    if (turn := orientation(transform)) != _UNTURNED:
+        found.append(("quat", turn))
     return found
 
 
@@ -52,6 +54,8 @@ def position(transform: Transform) -> tuple[float, float, float]:
 
 def orientation(transform: Transform) -> tuple[float, float, float, float]:
     """The rotation as a unit quaternion w x y z, with w at least 0."""
+    if transform.is_unturned:
+        return _UNTURNED
     x, y, z, w = transform.quaternion()
     if w < 0:
         x, y, z, w = -x, -y, -z, -w

@@ -1,6 +1,7 @@
 """Legalisation to MJCF: the passes, in order."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 from twinform.ir import Format
 from twinform.passes.framework.pass_base import Pass
@@ -20,11 +21,12 @@ _WITHOUT_AUTOMATIC = "1.10"
 def to_mjcf(source: Format, version: str | None, requested: Requested = USUAL) -> tuple[Pass, ...]:
     """The passes that make MJCF of a URDF or SDF document: by way of the newest SDF, and no other way."""
     newest = versions_of("sdf")[-1]
-    declared = None if source is Format.URDF else version
+    # Marks tell the writer which parts the way through SDF has made. Without carriers it writes none.
+    marking = replace(requested, carriers=True)
     if source is Format.URDF:
-        in_sdf = tuple(_robot_on_the_world(newest, requested))
+        declared, in_sdf = None, tuple(_robot_on_the_world(newest, marking))
     else:
-        in_sdf = () if version == newest else change_version(version, newest, requested)
+        declared, in_sdf = version, () if version == newest else change_version(version, newest, marking)
     write = WriteMjcf.unchecked(
         carriers=requested.carriers,
         source_version=declared,
@@ -32,20 +34,24 @@ def to_mjcf(source: Format, version: str | None, requested: Requested = USUAL) -
         side_files=requested.side_files,
     )
     # MuJoCo computes inertias of shapes in its own way, and of all links or none.
-    written_out = WriteInertias.unchecked(version=_WITHOUT_AUTOMATIC, carriers=requested.carriers)
-    return (*in_sdf, written_out, write)
+    return (*in_sdf, WriteInertias.unchecked(version=_WITHOUT_AUTOMATIC), write)
 
 
 def _robot_on_the_world(version: str, requested: Requested) -> Iterator[Pass]:
     """Yield the passes from URDF to SDF, with one more that fixes the robot to the world of SDF."""
-    from twinform.passes.legalise.to_sdf.mesh_uris import MeshUris  # noqa: PLC0415 - see above
+    from twinform.passes.legalise.to_sdf.mesh_uris import MeshUris  # noqa: PLC0415 - few conversions go this way
     from twinform.passes.legalise.to_sdf.sequence import to_sdf  # noqa: PLC0415 - many passes
+    from twinform.passes.legalise.to_sdf.unique_names import UniqueNames  # noqa: PLC0415 - see above
     from twinform.passes.legalise.to_sdf.world_link import WorldLink  # noqa: PLC0415 - see above
 
     for each in to_sdf(version, requested):
-        if isinstance(each, MeshUris):  # files are looked up, as the URDF names them
-            continue
-        yield each
-        # From here on a joint may have the world as its parent. Names are made unique after it.
-        if isinstance(each, WorldLink):
-            yield HoldRoot.unchecked()
+        match each:
+            case MeshUris():
+                continue  # files are looked up, as the URDF names them
+            case UniqueNames():
+                yield UniqueNames.unchecked(silent=True)  # names of MJCF are unique per kind, as in URDF
+            case WorldLink():
+                yield each
+                yield HoldRoot.unchecked()  # from here on a joint may have the world as its parent
+            case _:
+                yield each

@@ -1,8 +1,9 @@
 """Writes a document in the terms of SDF as the elements of MJCF: which part of it, and the sections in their order."""
 
+from dataclasses import replace
 from typing import ClassVar
 
-from twinform.diagnostics import DiagnosticSink
+from twinform.diagnostics import DiagnosticSink, Fate
 from twinform.ir import Document, Element, Format, Model, Opaque, World
 from twinform.ir.frames import FrameError
 from twinform.passes.carriers.carriers import Keeper
@@ -60,6 +61,8 @@ class WriteMjcf(AssetPass):
         """The document in the terms of MJCF; unchanged after an error."""
         if sink.has_errors or document.format is Format.MJCF:
             return document
+        if not self.carriers:
+            _drop_what_was_carried(sink)
         holder = holder_of(document)
         keeper = Keeper(sink, self.carriers)
         # MuJoCo looks meshes up by their paths, so that these have no prefix.
@@ -73,6 +76,12 @@ class WriteMjcf(AssetPass):
         parts = [Opaque.unchecked(attribute=("model", holder.name))]
         parts += [Opaque.unchecked(element=each) for each in _in_order(context)]
         return Document.unchecked(format=Format.MJCF, opaque=tuple(parts), source=document.source)
+
+
+def _drop_what_was_carried(sink: DiagnosticSink) -> None:
+    """Enter into the ledger that what earlier passes put into carriers is not written."""
+    entries = [replace(each, fate=Fate.DROPPED) if each.fate is Fate.CARRIED else each for each in sink.entries]
+    sink.entries[:] = entries
 
 
 def holder_of(document: Document) -> Model | World:

@@ -30,6 +30,8 @@ class UniqueNames(ModelPass):
 
     name: ClassVar[str] = "unique-names"
     carriers: bool = True
+    silent: bool = False
+    """For a target that gives the old names back: nothing is reported."""
 
     def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
         """The model with one name for each thing."""
@@ -58,10 +60,11 @@ class UniqueNames(ModelPass):
         return self._rename(node, names[node.name], sink) if node.name in names else node
 
     def _rename(self, node: Named, name: str, sink: DiagnosticSink) -> Named:
-        kind = type(node).__name__.lower()
-        message = f"{kind} {node.name!r} is called {name!r} in SDF"
-        sink.report(rules.RENAMED, message, node.location, found=node.name)
-        Keeper(sink, self.carriers).account(rules.RENAMED, message, node.location.at("@name"))
+        if not self.silent:
+            kind = type(node).__name__.lower()
+            message = f"{kind} {node.name!r} is called {name!r} in SDF"
+            sink.report(rules.RENAMED, message, node.location, found=node.name)
+            Keeper(sink, self.carriers).account(rules.RENAMED, message, node.location.at("@name"))
         if self.carriers:
             node = with_old_name(node, name)
         return node.copy(name=name)

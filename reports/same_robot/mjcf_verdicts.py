@@ -1,0 +1,107 @@
+"""What MuJoCo and Drake make of our MJCF of one file; runs in a worker process, since both may end it."""
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+import twinform
+from testbed.corpus.files import CorpusFile, Kind
+from testbed.engines.readers.meshless import without_meshes as boxed
+from testbed.mjcf.compiled import Compiled, UnreadableError, compile_mjcf, compile_urdf, without_meshes
+from testbed.mjcf.differences import differences
+from testbed.mjcf.from_drake import UncomparableError, differences_from_drake
+from twinform.testing.oracles import drake
+
+URDF, MODEL, WORLD = "URDF", "SDF model", "SDF world"
+
+
+class Verdict(StrEnum):
+    """What became of a file."""
+
+    SAME = "same robot"
+    ABSENT = "same without `<inertial>`"
+    TAKEN = "taken"
+    DIFFERENT = "different"
+    REFUSED = "refused"
+    NOT_WRITTEN = "not written"
+    SOURCE = "source not taken"
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """A file as one of the kinds above, and what became of it; the cause where it is not the same."""
+
+    name: str
+    kind: str
+    verdict: Verdict
+    cause: str = ""
+
+    def __str__(self) -> str:
+        return f"{self.name} as {self.kind}: {self.verdict}: {self.cause}"
+
+
+def judge(file: CorpusFile) -> list[Outcome]:
+    """What becomes of a file, as every kind that it is. No exception comes out of it."""
+    if file.kind is Kind.URDF:
+        return [_urdf(file)]
+    is_world = b"<world" in file.path.read_bytes()
+    return [_world(file) if is_world else _model(file)]
+
+
+def _urdf(file: CorpusFile) -> Outcome:
+    """The robot with a box for each mesh: MuJoCo would read no file without its meshes."""
+    text = boxed(file.path.read_bytes())
+    try:
+        source = compile_urdf(text, absent_is_nothing=False)
+    except UnreadableError as error:
+        return Outcome(file.name, URDF, Verdict.SOURCE, str(error))
+    made = _written(file, URDF, text)
+    if isinstance(made, Outcome):
+        return made
+    found = differences(source, made)
+    if not found:
+        return Outcome(file.name, URDF, Verdict.SAME)
+    try:
+        other = differences(compile_urdf(text, absent_is_nothing=True), made)
+    except UnreadableError:
+        other = found
+    if not other:
+        return Outcome(file.name, URDF, Verdict.ABSENT, _first(found))
+    return Outcome(file.name, URDF, Verdict.DIFFERENT, _first(other))
+
+
+def _model(file: CorpusFile) -> Outcome:
+    try:
+        drake.parts(file.path)
+    except Exception as error:  # noqa: BLE001 - Drake has no narrower type
+        return Outcome(file.name, MODEL, Verdict.SOURCE, str(error).partition("\n")[0])
+    made = _written(file, MODEL)
+    if isinstance(made, Outcome):
+        return made
+    try:
+        found = differences_from_drake(file.path, made)
+    except UncomparableError as error:
+        return Outcome(file.name, MODEL, Verdict.TAKEN, str(error))
+    return Outcome(file.name, MODEL, Verdict.DIFFERENT if found else Verdict.SAME, _first(found))
+
+
+def _world(file: CorpusFile) -> Outcome:
+    made = _written(file, WORLD)
+    return made if isinstance(made, Outcome) else Outcome(file.name, WORLD, Verdict.TAKEN)
+
+
+def _written(file: CorpusFile, kind: str, text: bytes | None = None) -> Compiled | Outcome:
+    """Our MJCF, compiled without meshes: of a text, or else of the file."""
+    try:
+        made = twinform.convert(file.path if text is None else text, to="mjcf", paths=file.paths).text
+    except twinform.CompileError as error:
+        first = next(found for found in error.diagnostics if found.is_error)
+        return Outcome(file.name, kind, Verdict.NOT_WRITTEN, f"{first.rule.name}: {first.message}")
+    try:
+        return compile_mjcf(without_meshes(made))
+    except UnreadableError as error:
+        return Outcome(file.name, kind, Verdict.REFUSED, str(error))
+
+
+def _first(found: list[str], most: int = 3) -> str:
+    """The first differences."""
+    return "; ".join(found[:most] + ([f"and {len(found) - most} more"] if len(found) > most else []))

@@ -1,0 +1,39 @@
+"""Bodies in MJCF: chains as deep as MuJoCo reads, and names that are unique in the file."""
+
+import pytest
+
+import twinform
+from twinform.compiler import CompileError
+from twinform.passes.legalise.to_mjcf.bodies import MOST_DEEP
+
+_INERTIAL = '<inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'
+
+
+def _chain(count: int) -> bytes:
+    links = "".join(f'<link name="l{i}">{_INERTIAL}</link>' for i in range(count))
+    joints = "".join(
+        f'<joint name="j{i}" type="continuous"><parent link="l{i - 1}"/><child link="l{i}"/></joint>'
+        for i in range(1, count)
+    )
+    return f'<robot name="chain">{links}{joints}</robot>'.encode()
+
+
+def test_a_chain_as_long_as_mujoco_reads_is_written() -> None:
+    assert twinform.convert(_chain(MOST_DEEP), to="mjcf").text.count("<body") == MOST_DEEP
+
+
+def test_a_longer_chain_is_refused_with_what_helps() -> None:
+    with pytest.raises(CompileError) as refused:
+        twinform.convert(_chain(MOST_DEEP + 1), to="mjcf")
+    (error,) = (each for each in refused.value.diagnostics if each.is_error)
+    assert error.rule.name == "nested-too-deeply"
+    assert "lump-fixed-joints" in (error.help or "")
+
+
+def test_many_parts_of_one_name_are_told_apart() -> None:
+    links = "".join(
+        f'<link name="l{i}"><visual name="seen"><geometry><sphere><radius>1</radius></sphere></geometry></visual></link>'
+        for i in range(3)
+    )
+    text = twinform.convert(f'<sdf version="1.11"><model name="m">{links}</model></sdf>'.encode(), to="mjcf").text
+    assert [f'<geom name="{name}"' in text for name in ("seen", "l1_seen", "l2_seen")] == [True, True, True]
