@@ -24,8 +24,8 @@ from twinform.passes.legalise.to_mjcf.sensors import body_sensors, joint_sensors
 from twinform.passes.legalise.to_mjcf.sites import body_sites
 from twinform.passes.legalise.to_mjcf.writing_context import Body, MjcfContext, scope_of
 
-MOST_DEEP = 490
-"""So many bodies may be nested: MuJoCo's parser of XML takes 500 elements, and refused 497 bodies."""
+MOST_DEEP = 400
+"""So many bodies may be nested: MuJoCo's parser of XML refused 497, and what writes XML here calls itself for each."""
 
 
 class Hold(NamedTuple):
@@ -66,7 +66,7 @@ class _BodyTree:
             depth[name] = depth[hold.parent] + 1
             bodies[name] = self._body(name, hold, bodies)
         if (deepest := max(depth.values())) > MOST_DEEP:
-            message = f"{deepest} links hang from each other, and MuJoCo reads no more than {MOST_DEEP} nested bodies"
+            message = f"{deepest} links hang from each other, and no more than {MOST_DEEP} bodies can be nested in MJCF"
             help_ = "lump-fixed-joints makes one link of those that fixed joints hold together"
             where = self.context.holder.location
             self.context.sink.report(rules.NESTED_TOO_DEEPLY, message, where, found=str(deepest), help=help_)

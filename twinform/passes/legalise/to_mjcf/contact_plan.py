@@ -38,6 +38,7 @@ class Bits(NamedTuple):
 
 USUAL = Bits(1, 1)
 """What a geom of MJCF has where nothing is written."""
+_SIGN = 2**31
 _MASKS = ("collide_bitmask", "category_bitmask")
 
 
@@ -155,7 +156,12 @@ class ContactPlan:
 def mask_of(collision: Collision, name: str) -> int | None:
     """The number of a bit mask in the surface of a collision, or None."""
     element = untyped(collision.surface, name) if collision.surface is not None else None
-    return int(float(element.text)) if element is not None and element.text else None
+    text = element.text if element is not None else None
+    if not text:
+        return None
+    # Files have them in hexadecimal, and MuJoCo has 32 bits of which the first is the sign.
+    number = int(text, 16) if text.lower().startswith("0x") else int(float(text))
+    return (number + _SIGN) % (2 * _SIGN) - _SIGN
 
 
 def kept_bits(collision: Collision) -> Bits | None:

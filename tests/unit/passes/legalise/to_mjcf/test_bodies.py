@@ -31,9 +31,7 @@ def test_a_longer_chain_is_refused_with_what_helps() -> None:
 
 
 def test_many_parts_of_one_name_are_told_apart() -> None:
-    links = "".join(
-        f'<link name="l{i}"><visual name="seen"><geometry><sphere><radius>1</radius></sphere></geometry></visual></link>'
-        for i in range(3)
-    )
+    visual = '<visual name="seen"><geometry><sphere><radius>1</radius></sphere></geometry></visual>'
+    links = "".join(f'<link name="l{i}">{visual}</link>' for i in range(3))
     text = twinform.convert(f'<sdf version="1.11"><model name="m">{links}</model></sdf>'.encode(), to="mjcf").text
     assert [f'<geom name="{name}"' in text for name in ("seen", "l1_seen", "l2_seen")] == [True, True, True]
