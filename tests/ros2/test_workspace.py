@@ -141,7 +141,7 @@ def test_what_is_installed_can_be_spawned_by_the_launch_file(tmp_path: Path, mon
 @pytest.mark.parametrize(
     ("old", "new", "why"),
     [
-        ("TO sdf", "TO usd", "TO is 'usd'; expected sdf or urdf"),
+        ("TO sdf", "TO usd", "TO is 'usd'; expected sdf, urdf or mjcf"),
         ("TO sdf", "", "TO is ''"),
         ("TO sdf", "TO sdf TOO", "'TOO' is none of its keywords"),
         ("TO sdf DESTINATION share/${PROJECT_NAME}/sdf", "TO sdf DESTINATION", "DESTINATION has no value"),

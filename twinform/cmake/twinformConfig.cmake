@@ -23,23 +23,27 @@ if(NOT TWINFORM_EXECUTABLE)
   return()
 endif()
 
-# twinform_convert(MODEL TO sdf|urdf [OUTPUT FILE] [DESTINATION FOLDER] [OPTIONS OPTION...])
+# twinform_convert(MODEL TO sdf|urdf|mjcf [OUTPUT FILE] [DESTINATION FOLDER] [OPTIONS OPTION...])
 #
-# Build the file in the other format, again whenever MODEL, a file that it includes, or the settings of its project
-# change. Without OUTPUT it is called like MODEL, in the build folder of this directory; DESTINATION is where it is
-# installed. OPTIONS are those of `twinform convert`, and arguments of xacro, NAME:=VALUE.
+# Build the file in another format, again whenever MODEL, a file that it includes, or the settings of its project
+# change. Without OUTPUT it is called like MODEL, with .xml for MJCF, in the build folder of this directory; DESTINATION
+# is where it is installed. OPTIONS are those of `twinform convert`, and arguments of xacro, NAME:=VALUE.
 function(twinform_convert model)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "TO;OUTPUT;DESTINATION" "OPTIONS")
   _twinform_require_words(twinform_convert "${arg_UNPARSED_ARGUMENTS}" "${arg_KEYWORDS_MISSING_VALUES}")
-  if(NOT arg_TO MATCHES "^(sdf|urdf)$")
-    message(FATAL_ERROR "twinform_convert: TO is '${arg_TO}'; expected sdf or urdf")
+  if(NOT arg_TO MATCHES "^(sdf|urdf|mjcf)$")
+    message(FATAL_ERROR "twinform_convert: TO is '${arg_TO}'; expected sdf, urdf or mjcf")
   endif()
   _twinform_find_input(twinform_convert "${model}" input)
 
   get_filename_component(name "${input}" NAME)
-  string(REGEX REPLACE "(\\.(urdf|sdf|world|xml|xacro))+$" "" name "${name}")
+  string(REGEX REPLACE "(\\.(urdf|sdf|world|xml|mjcf|xacro))+$" "" name "${name}")
   if(NOT arg_OUTPUT)
-    set(arg_OUTPUT "${name}.${arg_TO}")
+    set(ending "${arg_TO}")
+    if(arg_TO STREQUAL "mjcf")
+      set(ending "xml")
+    endif()
+    set(arg_OUTPUT "${name}.${ending}")
   endif()
   get_filename_component(output "${arg_OUTPUT}" ABSOLUTE BASE_DIR "${CMAKE_CURRENT_BINARY_DIR}")
   get_filename_component(folder "${output}" DIRECTORY)

@@ -31,9 +31,8 @@ def test_a_file_that_is_written_anew_keeps_its_own_parts(tmp_path: Path, monkeyp
     made = _synced(tmp_path)
     assert made.anew
     root = etree.fromstring(made.data or b"")
-    assert [(each.get("range"), each.get("armature")) for each in root.iterfind(".//body/joint")] == [
-        ("-1 1.5", "0.01")
-    ]
+    joints = [(each.get("range"), each.get("armature")) for each in root.iterfind(".//body/joint")]
+    assert joints == [("-1 1.5", "0.01")]
     assert [(each.get("joint"), each.get("kp")) for each in root.iterfind("actuator/position")] == [("turn", "20")]
     sites = [(each.get("name"), each.get("pos"), each.get("size")) for each in root.iter("site")]
     assert sites == [("tool", "0 0 0.1", "0.01")]
