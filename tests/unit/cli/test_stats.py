@@ -137,7 +137,7 @@ DOCTYPE = DAE.replace("<COLLADA", "<!DOCTYPE x SYSTEM 'file:///etc/passwd'><COLL
         # which of the two is reported depends on the decoders that are installed beside trimesh
         pytest.param("a.stl", "\0" * 80 + "\xff" * 4, None, "it ", id="stl that promises too much"),
         pytest.param("a.obj", "# nothing", None, "it ", id="empty obj"),
-        pytest.param("a.blend", "BLENDER", None, "triangles are counted in dae, glb, obj", id="another format"),
+        pytest.param("a.blend", "BLENDER", None, "triangles are counted in dae, glb, msh", id="another format"),
     ],
 )
 def test_a_mesh_costs_bytes_and_triangles(

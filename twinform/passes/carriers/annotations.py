@@ -30,6 +30,10 @@ REVERSED = "reversed"
 """The annotation on a joint of URDF whose parent is its child in SDF."""
 SYNTHESIZED = "made"
 """The annotation on a link, joint or frame that was not in the source."""
+MADE_NAME = "made-name"
+"""The annotation on a part without a name in MJCF: `<tf:made-name>NAME</tf:made-name>`, while it is still called so."""
+SAME_GEOM = "same-geom"
+"""The annotation on a visual that is one geom of MJCF with the collision of its name, if both have the same shape."""
 
 
 def annotation(kind: str, text: str | None = None, attributes: Mapping[str, str | None] | None = None) -> Opaque:

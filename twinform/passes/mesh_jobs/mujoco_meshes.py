@@ -1,4 +1,4 @@
-"""Reads the binary mesh files of MuJoCo, `.msh`: four counts, then positions, normals, texture coordinates and faces."""
+"""Reads the binary mesh files of MuJoCo, `.msh`: four counts, then points, normals, texture coordinates and faces."""
 
 import struct
 from typing import Any
@@ -26,7 +26,7 @@ def scene_of_msh(content: bytes) -> Any:
     vertices = np.frombuffer(content, "<f4", 3 * points, _HEADER.size).reshape(-1, 3).astype(float)
     start = _HEADER.size + sum(sizes[:3])
     triangles = np.frombuffer(content, "<i4", 3 * faces, start).reshape(-1, 3)
-    if faces and not (0 <= triangles.min() and triangles.max() < points):
+    if faces and not (triangles.min() >= 0 and triangles.max() < points):
         raise RefusedMeshError("a face of it names a point that it does not have")
     mesh = trimesh.Trimesh(vertices=vertices, faces=triangles, process=False)
     return trimesh.Scene(mesh if faces else mesh.convex_hull)

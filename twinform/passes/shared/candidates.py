@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterator
 from twinform.dataclass import dataclass
 from twinform.ir import Document, Include, Model, World
 from twinform.ir.scopes import nested_includes
+from twinform.passes.carriers.annotations import MADE_NAME, find_annotation
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,7 +27,20 @@ class ModelCandidate:
 
 
 def candidates(document: Document) -> Iterator[ModelCandidate]:
-    """All candidates of a document, those at the root first."""
+    """All candidates of a document, those at the root first.
+
+    The floor and the walls of an MJCF file are none, where there is anything else: they are no robot, and have no name.
+    """
+    found = [*_all_candidates(document)]
+    return iter([one for one in found if not _is_scenery(one.model)] or found)
+
+
+def _is_scenery(model: Model | Include) -> bool:
+    """Whether a model has the shapes of MJCF that belong to no body: it is static, and its name was made."""
+    return isinstance(model, Model) and model.static is True and find_annotation(model, MADE_NAME) is not None
+
+
+def _all_candidates(document: Document) -> Iterator[ModelCandidate]:
     for one in (*document.models, *document.includes):
         yield ModelCandidate(one)
     for world in document.worlds:

@@ -139,7 +139,7 @@ def test_a_submesh_is_a_part_and_may_be_centered(folder: Path) -> None:
         ("noise.dae", "unreadable-mesh", "noise.dae"),
         ("hostile.obj", "unreadable-mesh", "hostile.obj"),
         ("hostile.dae", "unreadable-mesh", "document type"),
-        ("part.step", "unreadable-mesh", "dae, glb, obj"),
+        ("part.step", "unreadable-mesh", "dae, glb, msh"),
         ("missing.stl", "unreadable-mesh", "missing.stl"),
     ],
 )

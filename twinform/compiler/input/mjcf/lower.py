@@ -23,12 +23,12 @@ from twinform.compiler.input.mjcf.lower_option import lower_option
 from twinform.compiler.input.mjcf.lower_sensors import SiteSensor, by_site, lower_sensor
 from twinform.compiler.input.mjcf.names import safe_name
 from twinform.compiler.input.mjcf.pieces import Piece, pose_of
-from twinform.compiler.input.mjcf.remainders import MADE_NAME, RemainderKeeper, in_sections, with_rest
+from twinform.compiler.input.mjcf.remainders import RemainderKeeper, in_sections, with_rest
 from twinform.compiler.input.mjcf.sections import Owners, Sections
 from twinform.compiler.input.mjcf.settings import MassSettings
 from twinform.compiler.resolve_uris import LocalAssets
 from twinform.ir import Document, Element, Format, Frame, Light, Link, Model, Opaque, Sensor, World
-from twinform.passes.carriers.annotations import annotation, with_annotation
+from twinform.passes.carriers.annotations import MADE_NAME, annotation, with_annotation
 from twinform.passes.carriers.carriers import NAMESPACE, PREFIX
 from twinform.passes.legalise.changed_names import NAME
 from twinform.passes.shared.mesh_solids import Meshes

@@ -16,10 +16,10 @@ from twinform.compiler.input.mjcf.lower_joints import FREE, joint_type, lower_jo
 from twinform.compiler.input.mjcf.lower_lights import lower_camera, lower_light
 from twinform.compiler.input.mjcf.names import NameScope
 from twinform.compiler.input.mjcf.pieces import Piece, pose_of
-from twinform.compiler.input.mjcf.remainders import MADE_NAME, RemainderKeeper, holder
+from twinform.compiler.input.mjcf.remainders import RemainderKeeper, holder, in_sections, with_rest
 from twinform.ir import Element, Frame, Joint, Light, Link, Mimic, Opaque, Pose, Sensor
 from twinform.ir.frames import WORLD
-from twinform.passes.carriers.annotations import annotate_synthesized, with_annotation
+from twinform.passes.carriers.annotations import MADE_NAME, annotate_synthesized, with_annotation
 from twinform.passes.carriers.token_mass import TOKEN
 
 JOINTS = ("joint", "freejoint")
@@ -102,28 +102,33 @@ class TreeLowering:
         return self.parts
 
     def _name(self, bodies: list[Piece]) -> None:
-        """Give names to links first, then to joints, then to frames."""
-        for body in sorted(bodies, key=lambda each: each.name is None):
-            name = self.names.give(body, f"{self.root.name or 'body'}_body")
+        """Give names to links first, then to joints, then to frames; those that are written come first."""
+        self._name_links(bodies)
+        joints = [(body, each) for body in bodies for each in body.all_of(*JOINTS) if joint_type(each) != FREE]
+        for body, joint in sorted(joints, key=lambda each: each[1].name is None):
+            name = self.names.give(joint, f"{self.names.of(body)}_joint", "joint")
+            if joint.name is not None:
+                self._joint_names[joint.name] = name
+        sites = [(body, each) for body in bodies for each in body.all_of("site") if each.name is not None]
+        for body, site in sites:
+            self.parts.sites[site.name or ""] = (self.names.of(body), self.names.give(site, "", "frame"))
+
+    def _name_links(self, bodies: list[Piece]) -> None:
+        """Give links the names of their bodies; one without a name is called after the body around it."""
+        for body in bodies:
             if body.name is not None:
-                self.parts.links_of[body.name] = name
-        for body in bodies:
-            for joint in body.all_of(*JOINTS):
-                if joint_type(joint) != FREE:
-                    name = self.names.give(joint, f"{self.names.give(body, '')}_joint")
-                    if joint.name is not None:
-                        self._joint_names[joint.name] = name
-        for body in bodies:
-            link = self.names.give(body, "")
-            for site in body.all_of("site"):
-                if site.name is not None:
-                    self.parts.sites[site.name] = (link, self.names.give(site, ""))
+                self.parts.links_of[body.name] = self.names.give(body, "", "link")
+        if self.root.name is None:
+            self.names.give(self.root, "body", "link")
+        unnamed = [(body, each) for body in bodies for each in body.all_of("body") if each.name is None]
+        for body, inner in unnamed:
+            self.names.give(inner, f"{self.names.of(body)}_body", "link")
 
     def _body(self, here: _Placed) -> str:
         """Build the link of a body and what holds it, and return the name of the link."""
         body = here.body
         body.is_settled = True
-        name = self.names.give(body, "")
+        name = self.names.of(body)
         at = body.transform()
         is_root = here.parent is None
         pose = None if is_root else pose_of(at, here.parent, body.source)
@@ -159,7 +164,7 @@ class TreeLowering:
 
     def _between(self, joints: list[Piece], pose: Pose | None) -> list[Link]:
         """Return the links between the joints of a body, all in its place."""
-        made = [self.names.make(f"{self.names.give(each, '')}_link") for each in joints[:-1]]
+        made = [self.names.make(f"{self.names.of(each)}_link") for each in joints[:-1]]
         return [
             annotate_synthesized(Link.unchecked(name=each, pose=pose, inertial=TOKEN, source=joint.source))
             for each, joint in zip(made, joints[:-1], strict=True)
@@ -173,10 +178,11 @@ class TreeLowering:
             return
         ends = [here.parent or WORLD, *between, name]
         for joint, parent, child in zip(joints, ends[:-1], ends[1:], strict=True):
-            given = self.names.give(joint, "")
+            given = self.names.of(joint)
             effort = self._efforts.get(joint.name or "")
-            made = lower_joint(joint, given, parent, child, self._mimic(joint), effort, self._keeper)
-            self.parts.joints.append(self.names.marked(made, joint))
+            mimic, rest = self._mimic(joint)
+            made = lower_joint(joint, given, parent, child, mimic, effort, self._keeper)
+            self.parts.joints.append(self.names.marked(with_rest(made, rest), joint))
 
     def _fixed(self, here: _Placed, name: str) -> Joint:
         made = self.names.make(f"{name}_fixed_joint")
@@ -185,12 +191,14 @@ class TreeLowering:
         )
         return with_annotation(joint, MADE_NAME, made)
 
-    def _mimic(self, joint: Piece) -> Mimic | None:
-        """Return what a joint follows, if both are in this tree and both slide or turn."""
+    def _mimic(self, joint: Piece) -> tuple[Mimic | None, tuple[Opaque, ...]]:
+        """Return what a joint follows, if both are in this tree and slide or turn, and the rest of the equality."""
         piece, said = self._followers.get(joint.name or "", (None, None))
         if piece is None or said is None or said.leader not in self._joint_names or joint_type(joint) == "ball":
-            return None
-        return mimic_of(piece, said, self._joint_names[said.leader])
+            return None, ()
+        mimic = mimic_of(piece, said, self._joint_names[said.leader])
+        element = self._keeper.rest_element(piece)
+        return mimic, in_sections({"equality": (element,)}) if element.attributes else ()
 
     def _free_joint(self, body: Piece) -> tuple[Opaque, ...]:
         """Return what is left of the free joint of a root, which SDF says by having no joint."""
@@ -209,7 +217,7 @@ class TreeLowering:
             pose = pose_of(site.transform(), source=site.source)
             rest = self._keeper.rest(site, is_marked=True)
             frame = Frame.unchecked(
-                name=self.names.give(site, ""), attached_to=link, pose=pose, opaque=rest, source=site.source
+                name=self.names.of(site), attached_to=link, pose=pose, opaque=rest, source=site.source
             )
             self.parts.frames.append(self.names.marked(frame, site))
 

@@ -57,13 +57,14 @@ def lower_loop(piece: Piece, name: str, links: Mapping[str, str], keeper: Remain
     at = placed_at(piece.numbers("anchor")).translation if piece.tag == "connect" else None
     pose = Pose.unchecked(xyz=at, relative_to=links[first]) if at else None
     element = keeper.rest_element(piece)
+    rest = in_sections({"equality": (element,)}) if element.attributes else ()
     return Joint.unchecked(
         name=name,
         type="ball" if piece.tag == "connect" else "fixed",
         parent=links[first],
         child=links[second],
         pose=pose,
-        opaque=in_sections({"equality": (element,)}),
+        opaque=rest,
         source=piece.source,
     )
 

@@ -13,9 +13,9 @@ from twinform.compiler.input.mjcf.contact_masks import Bits, ContactMasks
 from twinform.compiler.input.mjcf.lower_materials import is_invisible, lower_material
 from twinform.compiler.input.mjcf.lower_shapes import PlacedShape, lower_shape
 from twinform.compiler.input.mjcf.pieces import Piece, pose_of
-from twinform.compiler.input.mjcf.remainders import MADE_NAME, SAME_GEOM, RemainderKeeper, holder
+from twinform.compiler.input.mjcf.remainders import RemainderKeeper, holder
 from twinform.ir import Collision, Element, Geometry, Opaque, Pose, Surface, Visual
-from twinform.passes.carriers.annotations import annotation
+from twinform.passes.carriers.annotations import MADE_NAME, SAME_GEOM, annotation
 from twinform.passes.shared.nodes import reserve_name
 
 _SHOWN = 3

@@ -8,6 +8,7 @@ from twinform.compiler.input.mjcf.remainders import RemainderKeeper
 from twinform.ir import Axis, Dynamics, Joint, JointType, Limit, Mimic, Pose
 from twinform.ir.defaults import AXIS
 from twinform.ir.document import Format
+from twinform.ir.transform import rounded
 
 FREE = "free"
 TYPES: Mapping[str, JointType] = {"hinge": "revolute", "slide": "prismatic", "ball": "ball"}
@@ -83,7 +84,8 @@ def _range(piece: Piece, ref: float) -> tuple[float | None, float | None]:
         _take_unlimited(piece)
         return None, None
     piece.take("limited")
-    lower, upper = (each - ref for each in piece.numbers("range"))
+    least, most = piece.numbers("range")
+    lower, upper, _ = rounded((least - ref, most - ref, 0.0))
     return (lower if math.isfinite(lower) else None), (upper if math.isfinite(upper) else None)
 
 
@@ -120,7 +122,7 @@ def _dynamics(piece: Piece, ref: float) -> Dynamics | None:
     stiffness = _first_coefficient(piece, "stiffness")
     reference = None
     if stiffness:
-        reference = (piece.number("springref") or 0.0) - ref
+        reference = rounded(((piece.number("springref") or 0.0) - ref, 0.0, 0.0))[0]
     elif not any(piece.peek_numbers("springref")):
         piece.take("springref")
     if damping is None and friction is None and stiffness is None:

@@ -37,7 +37,6 @@ from twinform.passes.sdf_versions import change_version
 from twinform.schemas import DEFAULT_SDF_VERSION, XmlElement, versions_of
 
 AnyPart = TypeVar("AnyPart", Link, Joint, Frame)
-_MADE_NAME = "made-name"
 
 
 def merge_texts(document: Document, texts: tuple[CarriedText, ...], root: XmlElement, sink: DiagnosticSink) -> Document:

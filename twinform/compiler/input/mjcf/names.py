@@ -7,10 +7,9 @@ their names. A changed name stands in `<tf:name>`, a made one in `<tf:made-name>
 from typing import TypeVar
 
 from twinform.compiler.input.mjcf.pieces import Piece
-from twinform.compiler.input.mjcf.remainders import MADE_NAME
 from twinform.ir import Node
 from twinform.ir.frames import WORLD
-from twinform.passes.carriers.annotations import with_annotation
+from twinform.passes.carriers.annotations import MADE_NAME, with_annotation
 from twinform.passes.legalise.changed_names import NAME
 from twinform.passes.shared.nodes import reserve_name
 
@@ -24,10 +23,14 @@ class NameScope:
         self._taken = {WORLD}
         self._given: dict[Piece, str] = {}
 
-    def give(self, piece: Piece, unnamed: str) -> str:
-        """Return the name of an element in SDF, which is given once; `unnamed` is what one without a name is called."""
-        if piece not in self._given:
-            self._given[piece] = reserve_name(safe_name(piece.take("name") or unnamed), self._taken)
+    def give(self, piece: Piece, unnamed: str, kind: str) -> str:
+        """Name an element: as it is called, with its kind behind that where another part is called so, or `unnamed`."""
+        wish = safe_name(piece.take("name") or unnamed)
+        self._given[piece] = reserve_name(f"{wish}_{kind}" if wish in self._taken else wish, self._taken)
+        return self._given[piece]
+
+    def of(self, piece: Piece) -> str:
+        """Return the name that an element was given."""
         return self._given[piece]
 
     def make(self, wish: str) -> str:

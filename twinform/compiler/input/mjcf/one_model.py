@@ -1,10 +1,9 @@
 """The trees of a file of MJCF as one model: what was one model before it was written, and has several roots."""
 
-from twinform.compiler.input.mjcf.remainders import SAME_GEOM
 from twinform.ir import Document, Frame, Joint, Link, Model, Opaque, Pose, World, rewrite
 from twinform.ir.frames import WORLD
 from twinform.ir.transform import Transform
-from twinform.passes.carriers.annotations import annotate_synthesized, find_annotation
+from twinform.passes.carriers.annotations import SAME_GEOM, annotate_synthesized, find_annotation
 from twinform.passes.shared.nodes import reserve_name
 
 

@@ -18,13 +18,7 @@ from twinform.schemas import XmlElement
 
 MJCF = "mjcf"
 """The kind of the element of our namespace that holds the remainder of a part of MJCF."""
-MADE_NAME = "made-name"
-"""The annotation on a part with a name that the file does not have: `<tf:made-name>NAME</tf:made-name>`.
 
-While the part is still called so, it has no name in MJCF.
-"""
-SAME_GEOM = "same-geom"
-"""The annotation on a visual that is one geom of MJCF with the collision of its name, if both have the same shape."""
 AnyNode = TypeVar("AnyNode", bound=Node)
 
 _SOLVER = "it is a setting of MuJoCo's contact and constraint solver"

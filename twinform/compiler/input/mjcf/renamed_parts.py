@@ -2,10 +2,9 @@
 
 from collections.abc import Sequence
 
-from twinform.compiler.input.mjcf.remainders import MADE_NAME
 from twinform.ir import Format, Frame, Joint, Link, Model
 from twinform.ir.scopes import SCOPE
-from twinform.passes.carriers.annotations import find_annotation, is_synthesized, without_annotation
+from twinform.passes.carriers.annotations import MADE_NAME, find_annotation, is_synthesized, without_annotation
 from twinform.passes.carriers.partial_nodes import written_name
 from twinform.passes.legalise.changed_names import NAME, Names, renamed
 from twinform.passes.shared.nodes import unique_name
