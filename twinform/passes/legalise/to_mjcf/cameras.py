@@ -10,7 +10,7 @@ from twinform.ir import Element, Pose, Sensor
 from twinform.ir.transform import Transform
 from twinform.passes.legalise.to_mjcf.elements import Value, make_element, placement
 from twinform.passes.legalise.to_mjcf.kept_mjcf import with_kept
-from twinform.passes.legalise.to_mjcf.said_parts import child_number, child_vector
+from twinform.passes.legalise.to_mjcf.said_parts import child_count, child_number, child_vector
 from twinform.passes.legalise.to_mjcf.writing_context import Body, MjcfContext
 
 OPTICAL = Transform.from_pose(Pose.unchecked(quat_xyzw=(0.5, -0.5, -0.5, 0.5)))
@@ -33,9 +33,8 @@ def camera_element(
     view = child_number(camera, "horizontal_fov", default=FIELD_OF_VIEW)
     if not 0 < view < math.pi:
         return None
-    width, height = (
-        int(child_number(camera, "image", key, default=usual)) for key, usual in (("width", WIDTH), ("height", HEIGHT))
-    )
+    width = child_count(camera, "image", "width", default=WIDTH)
+    height = child_count(camera, "image", "height", default=HEIGHT)
     if width <= 0 or height <= 0:
         return None
     attributes: list[tuple[str, Value]] = [

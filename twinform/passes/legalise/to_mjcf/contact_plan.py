@@ -20,7 +20,7 @@ from twinform.ir.frames import WORLD
 from twinform.ir.kinematic_tree import KinematicTree
 from twinform.ir.scopes import SCOPE, scoped_models
 from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements
-from twinform.passes.legalise.to_mjcf.said_parts import untyped
+from twinform.passes.legalise.to_mjcf.said_parts import untyped, whole_number
 
 MOST_BITS = 31
 """How many models may have a bit: the numbers are signed and have 32."""
@@ -157,11 +157,8 @@ def mask_of(collision: Collision, name: str) -> int | None:
     """The number of a bit mask in the surface of a collision, or None."""
     element = untyped(collision.surface, name) if collision.surface is not None else None
     text = element.text if element is not None else None
-    if not text:
-        return None
-    # Files have them in hexadecimal, and MuJoCo has 32 bits of which the first is the sign.
-    number = int(text, 16) if text.lower().startswith("0x") else int(float(text))
-    return (number + _SIGN) % (2 * _SIGN) - _SIGN
+    # MuJoCo has 32 bits, of which the first is the sign
+    return (whole_number(text, ALL_TOUCH) + _SIGN) % (2 * _SIGN) - _SIGN if text else None
 
 
 def kept_bits(collision: Collision) -> Bits | None:

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from twinform.ir import Element, Pose, Sensor
 from twinform.ir.transform import Transform
-from twinform.passes.legalise.to_mjcf.said_parts import child_number, untyped
+from twinform.passes.legalise.to_mjcf.said_parts import child_count, child_number, untyped
 from twinform.passes.legalise.to_mjcf.sensor_parts import SensorParts, reading, single_noise
 from twinform.passes.legalise.to_mjcf.sites import sensor_site
 from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext
@@ -60,7 +60,7 @@ def lidar_of(sensor: Sensor) -> Element | None:
 
 
 def _scan(lidar: Element | None, way: str) -> Scan:
-    samples = int(child_number(lidar, "scan", way, "samples", default=_SAMPLES[way]))
+    samples = child_count(lidar, "scan", way, "samples", default=_SAMPLES[way])
     least, most = (child_number(lidar, "scan", way, f"{end}_angle", default=0.0) for end in ("min", "max"))
     return Scan(samples, least, most)
 

@@ -1,5 +1,6 @@
 """What is left of a node of SDF once MJCF has said a part of it: fields and untyped elements without that part."""
 
+import math
 from collections.abc import Collection, Iterable
 from typing import TypeVar
 
@@ -24,6 +25,20 @@ def child_number(element: Element | None, *path: str, default: float) -> float:
     """The number at a path of names below an element, or the default."""
     text = child_text(element, *path)
     return default if text is None else float(text)
+
+
+def child_count(element: Element | None, *path: str, default: int) -> int:
+    """The whole number at a path of names below an element, or the default; it may be hexadecimal."""
+    return whole_number(child_text(element, *path), default)
+
+
+def whole_number(text: str | None, default: int) -> int:
+    """The whole number in a text, which may be hexadecimal; the default where there is none."""
+    try:
+        return default if text is None else int(text, 0)
+    except ValueError:  # such as 640.0, 007 and inf
+        number = float(text or "nan")
+        return int(number) if math.isfinite(number) else default
 
 
 def child_vector(element: Element | None, *path: str) -> tuple[float, ...] | None:
