@@ -32,7 +32,7 @@ Places are:
 """
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import field, replace
 from functools import cache
 from itertools import chain, pairwise
@@ -175,10 +175,10 @@ class FactDefinitions(Mapping[str, Fact]):
     """Definitions by name, each parsed when somebody first asks for it: a run needs few of them."""
 
     def __init__(self) -> None:
-        self._lines: dict[str, tuple[list[str], str, int]] = {}
+        self._lines: dict[str, tuple[Sequence[str], str, int]] = {}
         self._parsed: dict[str, Fact] = {}
 
-    def add(self, lines: list[str], file: str) -> None:
+    def add(self, lines: Sequence[str], file: str) -> None:
         """Add the definitions in the lines of a `.facts` file.
 
         Raises:
