@@ -70,6 +70,7 @@ generate: $(SYNCED) ## write the files that are made from tables: schemas and re
 	$(BIN)/python -m twinform.compiler.option_docstrings
 	$(BIN)/python -m generators.mapping.elements urdf docs/reference/urdf
 	$(BIN)/python -m generators.mapping.elements sdf docs/reference/sdf
+	$(BIN)/python -m generators.mapping.elements mjcf docs/reference/mjcf
 	$(BIN)/python -m generators.libsdformat_codes docs/reference/libsdformat_codes.md
 	$(BIN)/python -m generators.mapping.page docs/explanation/mapping.md
 	$(BIN)/python -m generators.mapping.destinations twinform/server/destinations.json
@@ -96,6 +97,7 @@ lint: $(SYNCED) ## formatting, lint, types, layers, generated files, and a wheel
 	$(BIN)/python -m twinform.compiler.option_docstrings --check
 	$(BIN)/python -m generators.mapping.elements urdf docs/reference/urdf --check
 	$(BIN)/python -m generators.mapping.elements sdf docs/reference/sdf --check
+	$(BIN)/python -m generators.mapping.elements mjcf docs/reference/mjcf --check
 	$(BIN)/python -m generators.libsdformat_codes docs/reference/libsdformat_codes.md --check
 	$(BIN)/python -m generators.mapping.page docs/explanation/mapping.md --check
 	$(BIN)/python -m generators.mapping.destinations twinform/server/destinations.json --check

@@ -9,6 +9,8 @@ from testbed.markdown import rule_links
 from twinform.diagnostics import Fate, Severity
 from twinform.ir.versions import print_version
 from twinform.schemas.facts import Fact
+from twinform.schemas.meanings import name_one_of
+from twinform.schemas.value_types import type_name
 from twinform.server.mapping import MappingRow, field_of
 
 ROOT = "../../.."
@@ -35,11 +37,15 @@ def _kind(fact: Fact) -> Iterator[str]:
     if fact.enum:
         yield "one of " + ", ".join(fact.enum)
     elif fact.type or fact.any:
-        yield fact.type or "anything"
+        yield type_name(fact.type) if fact.type else "anything"
+    if fact.names:
+        yield f"the name of {name_one_of(fact.names)}"
     if fact.unit:
         yield f"in {fact.unit}"
     if fact.min is not None:
         yield f"at least {fact.min:g}"
+    if fact.above is not None:
+        yield f"more than {fact.above:g}"
     if fact.max is not None:
         yield f"at most {fact.max:g}"
     if fact.default is not None:

@@ -1,11 +1,13 @@
-"""The pages of a format: `python -m generators.mapping.elements urdf|sdf FOLDER [--check]` writes or checks them.
+"""The pages of a format: `python -m generators.mapping.elements urdf|sdf|mjcf FOLDER [--check]` writes or checks them.
 
-There is one for each type of element, with a row for each element and attribute in it: what the facts tables say of it,
-what it means, where it goes in the other format, the rules, and a case file that proves it.
+There is one for each type of element, with a row for each element and attribute in it: what the facts tables say of it
+and what it means; for URDF and SDF, whose rows have counterparts in each other, also where it goes, the rules, and a
+case file that proves it.
 """
 
 import sys
 from collections.abc import Iterator
+from typing import get_args
 
 from generators.mapping.cells import ROOT, became, kind, name_of, rules_seen, versions, where
 from generators.mapping.file_rows import holders
@@ -24,7 +26,13 @@ Every element and attribute of {title} as it is read and written here, a page fo
 and limits, versions, what it means, what becomes of it in {other}, and a case file that proves it.
 [How to read the tables](../../explanation/mapping.md).
 """
-_HEAD = ["element", "type", "versions", "meaning", "where it goes", "in the IR", "rules", "case"]
+_ABOUT_MJCF = """\
+Every element and attribute of MJCF as MuJoCo {version} reads it, a page for each type of element: type, default and
+limits, versions, and what it means. A test asks MuJoCo of each row. A file declares no version: it is read by the words
+of the program. What is no longer read has the version up to which it was.
+"""
+_HEAD = ["element", "type", "versions", "meaning"]
+_GOES = ["where it goes", "in the IR", "rules", "case"]
 
 
 def pages(format: FormatName) -> dict[str, str]:
@@ -34,14 +42,17 @@ def pages(format: FormatName) -> dict[str, str]:
 
 def _list(format: FormatName) -> str:
     other = next(each for each in FORMATS if each != format)
-    about = _ABOUT.format(title=format.upper(), other=other.upper(), format=format)
+    about = _ABOUT.format(title=format.upper(), other=other.upper())
+    if format not in FORMATS:
+        about = _ABOUT_MJCF.format(version=table(format).versions[-1])
     listed = ([f"[{name}]({name}.md)", meanings(format).get((name,), "")] for name in sections(format))
     return paragraphs(f"# {format.upper()}", about, markdown_table(["element type", "meaning"], listed)) + "\n"
 
 
 def _page(format: FormatName, name: str) -> str:
     below = [row for row in rows(format) if row.definition == name]
-    listed = markdown_table(_HEAD, ([*_cells(row, measured().get(row, Seen()))] for row in below)) if below else ""
+    head = [*_HEAD, *_GOES] if format in FORMATS else _HEAD
+    listed = markdown_table(head, ([*_cells(row)] for row in below)) if below else ""
     own = (_note(note) for note in notes() if (format, name) in note.sections)
     title = f"# {name} ({format.upper()})"
     return paragraphs(title, meanings(format).get((name,), ""), _opening(format, name), listed, *own) + "\n"
@@ -60,12 +71,18 @@ def _opening(format: FormatName, name: str) -> str:
     return " ".join(parts)
 
 
-def _cells(row: MappingRow, seen: Seen) -> Iterator[str]:
-    field, goes = where(row, seen)
+def _cells(row: MappingRow) -> Iterator[str]:
     yield name_of(row)
     yield kind(row.fact)
     yield versions(row.fact)
     yield meanings(row.format).get((row.definition, *row.steps.split("/")), "").replace("<", "&lt;")
+    if row.format in FORMATS:
+        yield from _cells_of_mapping(row, measured().get(row, Seen()))
+
+
+def _cells_of_mapping(row: MappingRow, seen: Seen) -> Iterator[str]:
+    """Yield where a row goes in the other format, its field, its rules and its case."""
+    field, goes = where(row, seen)
     yield ": ".join(filter(None, (became(seen), goes)))
     yield field
     yield "; ".join(rules_seen(seen))
@@ -82,5 +99,5 @@ def _note(note: Note) -> str:
 
 
 if __name__ == "__main__":
-    chosen: FormatName = "urdf" if sys.argv[1] == "urdf" else "sdf"
+    chosen = next(each for each in get_args(FormatName) if each == sys.argv[1])
     sys.exit(main_of_folder(pages(chosen), sys.argv[2:]))

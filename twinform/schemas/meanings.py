@@ -110,7 +110,7 @@ class Documentation:
         """The documentation of a row; `like` are all rows of its name, one for each group of versions."""
         sentences = [self.texts.get(path, "")]
         if row.names:
-            sentences.append(f"The name of {_one_of(row.names)}.")
+            sentences.append(f"The name of {name_one_of(row.names)}.")
         if row.unit is not None:
             sentences.append(f"Unit: {_UNIT_WORDS.get(row.unit, row.unit)}.")
         if row.default is not None:
@@ -144,7 +144,7 @@ class Documentation:
             yield f"Until {name} {print_version(until)}."
 
 
-def _one_of(names: Sequence[str]) -> str:
+def name_one_of(names: Sequence[str]) -> str:
     """Write names with an article before the first and `or` before the last: `a body, geom or site`."""
     *most, last = names
     listed = f"{', '.join(most)} or {last}" if most else last

@@ -291,6 +291,11 @@ _MJCF = {
 VALUE_TYPES = {"urdf": _URDF, "sdf": _SDF, "mjcf": _MJCF}
 
 
+def type_name(type: str) -> str:
+    """Return what people call a value type: `double.1-3` is one to three numbers."""
+    return _MJCF[type].expected if "." in type else type
+
+
 def parse_value(type: str, text: str, format: str = "sdf") -> object:
     """The value of a text.
 

@@ -13,6 +13,7 @@ from twinform.passes.plugins.catalog import systems
 from twinform.passes.plugins.catalog_types import PluginKind
 from twinform.schemas import table
 from twinform.schemas.meanings import Documentation
+from twinform.schemas.value_types import type_name
 from twinform.server.diagnostics import span_of
 from twinform.server.document_names import name_at
 from twinform.server.documents import Cursor, CursorKind, TextDocument, cursor_at
@@ -62,7 +63,7 @@ def text_of_row(row: MappingRow) -> str:
 def _describe_type(row: MappingRow) -> Iterator[str]:
     fact = row.fact
     words = [*(["required"] if fact.required else []), *(["may be repeated"] if fact.repeats else [])]
-    words += [fact.type] if fact.type else []
+    words += [type_name(fact.type)] if fact.type else []
     words += [f"of the dialect of {fact.dialect}"] if fact.dialect else []
     if words:
         yield f"*{', '.join(words)}*"

@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from twinform.ir.sensor import SENSOR_ELEMENTS
 from twinform.passes.shared.gazebo_tags import JOINT_TAGS, LINK_TAGS
 from twinform.schemas import Fact, rows_by_name
+from twinform.schemas.value_types import type_name
 from twinform.server.completion.plugins import propose_attributes_of_parameter, propose_parameters
 from twinform.server.completion.proposals import ITEM, ElementPlace, Proposal
 from twinform.server.completion.xacro import propose_attributes_of_xacro, propose_blocks, propose_xacro
@@ -160,6 +161,6 @@ def _rank(fact: Fact) -> int:
 
 def detail_of(fact: Fact) -> str:
     """Describe a part in a few words: its type, unit and default."""
-    words = [fact.type or "", fact.unit or "", f"default {fact.default}" if fact.default is not None else ""]
+    words = [type_name(fact.type or ""), fact.unit or "", f"default {fact.default}" if fact.default is not None else ""]
     words += ["required"] if fact.required else []
     return ", ".join(filter(None, words))
