@@ -17,6 +17,8 @@ _EXPAND_HELP = "give the file the suffix .xacro, or pass --xacro"
 # Neither part of the robot nor of what Gazebo makes of it: expressions there are for whoever reads
 # them.
 _SETTINGS = frozenset({"ros2_control", "transmission"})
+_CUSTOM = "custom"
+"""The section of MJCF for texts that MuJoCo keeps and does not read; some of them are our carriers."""
 # Nearly no element has an expression, and libxml2 finds that out faster than Python.
 _MAY_HAVE_EXPRESSIONS = etree.XPath("descendant-or-self::*[(text() | @*)[contains(., '${')]]")
 
@@ -96,10 +98,10 @@ def elements_of_xacro(root: XmlElement) -> Iterator[XmlElement]:
 
 
 def _with_expressions(root: XmlElement) -> Iterator[_Expression]:
-    """Yield the elements that have `${...}`, except those that only plugins or xacro read."""
+    """Yield the elements that have `${...}`, except those that only plugins, programs of users or xacro read."""
     for element in _MAY_HAVE_EXPRESSIONS(root):
         around = {str(each.tag) for each in (element, *element.iterancestors())}
-        if any(tag[0] == "{" or tag == "plugin" for tag in around):
+        if any(tag[0] == "{" or tag == "plugin" for tag in around) or _CUSTOM in around:
             continue
         texts = (element.text or "", *element.values())
         found = next((each.strip() for each in texts if "${" in each and "}" in each), None)

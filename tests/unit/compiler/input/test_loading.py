@@ -348,3 +348,27 @@ def test_what_others_have_frozen_stays_so() -> None:
         assert gc.get_freeze_count() > 0
     finally:
         gc.unfreeze()
+
+
+_BODY = """<mujoco model="m">
+  <compiler inertiafromgeom="{}"/>
+  <asset><mesh name="gone" file="gone.obj"/></asset>
+  <worldbody><body name="a">{}</body></worldbody>
+  <custom><text name="note" data="${{not an expression of xacro}}"/></custom>
+</mujoco>"""
+
+
+@pytest.mark.parametrize(
+    ("setting", "geom", "mass"),
+    [
+        ("auto", '<geom type="box" size="0.5 0.5 0.5"/>', 1000),
+        ("false", '<geom type="box" size="0.5 0.5 0.5"/>', None),
+        ("auto", '<geom type="mesh" mesh="gone" density="0"/>', None),
+        ("false", '<geom type="mesh" mesh="gone"/>', None),
+    ],
+)
+def test_geoms_of_mjcf_have_a_mass_where_the_file_says_so(setting: str, geom: str, mass: float | None) -> None:
+    document = twinform.loads(_BODY.format(setting, geom), name="m.xml")
+    robot = twinform.convert(document, to="urdf").document.models[0]
+    inertial = next(link.inertial for link in robot.links if link.name == "a")
+    assert (inertial.mass if inertial and inertial.mass and inertial.mass > 1e-9 else None) == mass

@@ -51,7 +51,8 @@ def body_inertia(body: Piece, settings: MassSettings, solid_of: SolidOf) -> Writ
     if written is not None and settings.from_geoms != "true":
         found = _written(written)
     else:
-        solid = combined([each for each in _solids(body, settings, solid_of) if each.mass > LEAST])
+        counted = () if settings.from_geoms == "false" else _solids(body, settings, solid_of)
+        solid = combined([each for each in counted if each.mass > LEAST])
         found = WrittenInertia(solid, Transform(), is_written=False, piece=body)
     return found._replace(solid=_corrected(found.solid, settings))
 
@@ -73,7 +74,9 @@ def _solids(body: Piece, settings: MassSettings, solid_of: SolidOf) -> Sequence[
         if not first <= int(geom.peek("group") or "0") <= last:
             continue
         mass, density = geom.number("mass"), geom.number("density")
-        solid = solid_of(geom, DENSITY if density is None else density) if mass is None else None
+        density = DENSITY if density is None else density
+        # A mesh that has no mass need not be there.
+        solid = solid_of(geom, density) if mass is None and density else None
         if mass is not None:
             filled = solid_of(geom, DENSITY)
             solid = with_mass(filled, mass) if filled is not None and filled.mass else None
