@@ -31,6 +31,8 @@ class MassSettings:
         """Take the settings of all `<compiler>` elements of a file; of two values the later one counts."""
         values: dict[str, str] = {}
         for each in compilers:
+            for name in _APPLIED:
+                each.take(name)
             for name in _NAMES:
                 value = each.take(name)
                 if value is not None:
@@ -46,4 +48,6 @@ class MassSettings:
         )
 
 
+_APPLIED = ("angle", "autolimits", "coordinate", "eulerseq")
+"""Settings that say how the file is written, and not what: canonical files are all written in one way."""
 _NAMES = ("inertiafromgeom", "inertiagrouprange", "balanceinertia", "boundmass", "boundinertia", "settotalmass")
