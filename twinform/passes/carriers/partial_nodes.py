@@ -12,7 +12,7 @@ from operator import is_
 from typing import Any, NamedTuple, Protocol, TypeVar, cast
 
 from twinform.dataclass import dataclass
-from twinform.ir import Axis, Dynamics, Limit, Node, Opaque, Surface
+from twinform.ir import Axis, Dynamics, Limit, Node, Opaque, Surface, rewrite
 from twinform.ir.node import NOT_CONTENT
 from twinform.ir.record import field_values, fields_of
 from twinform.passes.carriers.annotations import find_annotation, is_annotation, with_annotation, without_annotation
@@ -53,7 +53,7 @@ def remainder(node: AnyNode, said: Said, notes: Notes = _no_notes) -> AnyNode | 
     """The partial node with what a target leaves unsaid, and with the notes on it; None where it says everything."""
     fields = said(node)
     if fields is None:
-        return node
+        return rewrite(node, Node, lambda each: _with_notes(each, notes))
     base = node
     if isinstance(fields, Left):
         base, fields = cast("AnyNode", fields.node), fields.fields
@@ -72,6 +72,11 @@ def remainder(node: AnyNode, said: Said, notes: Notes = _no_notes) -> AnyNode | 
     if not _has_content(left):
         return None
     return with_annotation(left, REST) if is_said and not isinstance(node, _LOOSE) else left
+
+
+def _with_notes(node: AnyNode, notes: Notes) -> AnyNode:
+    more = notes(node)
+    return node.copy(opaque=(*more, *node.opaque)) if more else node
 
 
 def _left_of(value: object, said: Said, notes: Notes, default: object) -> object:

@@ -100,6 +100,12 @@ def _of_joint(node: Node) -> frozenset[str] | None:
     return _fields("name parent child pose")
 
 
+def _of_mimic(node: Node) -> frozenset[str] | None:
+    """Whether a mimic is a polynomial as it is; one with a reference is taken whole while it agrees with that."""
+    has_reference = isinstance(node, Mimic) and bool(node.reference)
+    return None if has_reference else _fields("joint axis multiplier offset")
+
+
 def _of_dynamics(node: Node) -> frozenset[str] | None:
     has_spring = isinstance(node, Dynamics) and bool(node.spring_stiffness)
     said = _fields("damping friction spring_stiffness")
@@ -137,6 +143,6 @@ _SAID: Mapping[type[Node], frozenset[str] | Callable[[Node], frozenset[str] | No
     Axis: _fields("xyz"),
     Limit: _fields("lower upper effort"),
     Dynamics: _of_dynamics,
-    Mimic: _fields("joint multiplier offset reference axis"),
+    Mimic: _of_mimic,
     Frame: _fields("name attached_to pose"),
 }

@@ -1,9 +1,12 @@
 """Several joints of one body that were one joint with two axes, or of another kind, before it was written as MJCF."""
 
+import math
 from collections.abc import Iterable
 
-from twinform.ir import Joint, Link, Model
+from twinform.ir import Joint, Link, Mimic, Model, rewrite
+from twinform.ir.defaults import multiplier
 from twinform.passes.carriers.annotations import find_annotation
+from twinform.passes.carriers.joint_chains import TWO_AXES, metres_per_radian
 from twinform.passes.carriers.mjcf_texts import LOOP
 from twinform.passes.carriers.partial_nodes import written_names
 
@@ -26,17 +29,40 @@ def _joined(model: Model, partial: Joint, names: list[str]) -> Model:
     if not all(_is_bare(link) for link in model.links if link.name in between):
         return model
     last = chain[-1]
+    axes = {"axis": chain[0].axis, "axis2": last.axis}
+    if partial.type == "screw":
+        axes = {"axis": last.axis, "axis2": None}
     joint = last.copy(
         name=partial.name,
         type=partial.type,
         parent=chain[0].parent,
-        axis=chain[0].axis,
-        axis2=last.axis if partial.axis2 is not None or len(chain) > 1 else None,
         opaque=tuple(part for each in chain for part in each.opaque),
+        **axes,
+        **_pitch(partial, chain[0]),
     )
     joints = tuple(joint if each is last else each for each in model.joints if each is last or each not in chain)
     links = tuple(each for each in model.links if each.name not in between)
-    return model.copy(links=links, joints=joints)
+    joined = model.copy(links=links, joints=joints)
+    return rewrite(joined, Mimic, lambda mimic: _led(mimic, names, partial))
+
+
+def _led(mimic: Mimic, names: list[str], partial: Joint) -> Mimic:
+    """A mimic that follows one axis of a joint of two."""
+    if mimic.joint not in names:
+        return mimic
+    second = partial.type in TWO_AXES and mimic.joint == names[-1]
+    return mimic.copy(joint=partial.name, axis="axis2" if second else None)
+
+
+def _pitch(partial: Joint, slide: Joint) -> dict[str, float]:
+    """The pitch of a screw in m per turn, if an edit has changed it: the slide follows the hinge by it."""
+    mimic = slide.axis.mimic if slide.axis else None
+    if partial.type != "screw" or mimic is None:
+        return {}
+    written, kept = multiplier(mimic), metres_per_radian(partial)
+    if kept is not None and math.isclose(written, kept, rel_tol=1e-9):
+        return {}
+    return {"screw_thread_pitch": written * math.tau}
 
 
 def _is_bare(link: Link) -> bool:

@@ -11,13 +11,14 @@ from twinform.compiler.input.mjcf.joined_joints import join_joints
 from twinform.compiler.input.mjcf.one_model import one_model
 from twinform.compiler.input.mjcf.renamed_parts import renamed_parts
 from twinform.compiler.input.mjcf.restore_contacts import note_contacts, settle_contacts
-from twinform.compiler.input.mjcf.restore_sensors import sensors_back, without_parts_of_sensors
+from twinform.compiler.input.mjcf.restore_sensors import sensors_back, without_lights, without_parts_of_sensors
 from twinform.compiler.input.mjcf.spellings import with_spellings
 from twinform.compiler.input.mjcf.usual_remainders import without_usual
 from twinform.diagnostics import DiagnosticSink
-from twinform.ir import Document, Format, Frame, Joint, Link, Model, Node, Opaque, Pose, World
+from twinform.ir import Document, Format, Frame, Joint, Link, Model, Node, Opaque, Pose, World, replace_fields
 from twinform.ir.element import Namespaces
 from twinform.ir.frames import MODEL, WORLD, FrameGraph
+from twinform.ir.scopes import scoped_models
 from twinform.passes.carriers.annotations import (
     FROM,
     came_from,
@@ -29,7 +30,7 @@ from twinform.passes.carriers.annotations import (
 )
 from twinform.passes.carriers.carriers import NAMESPACE
 from twinform.passes.carriers.carriers import PREFIX as TF
-from twinform.passes.carriers.mjcf_texts import ATTACHED, DOCUMENT, LOOP, PREFIXES
+from twinform.passes.carriers.mjcf_texts import ATTACHED, DOCUMENT, LOOP, PREFIXES, SEVERAL
 from twinform.passes.carriers.partial_nodes import REST, WRITTEN, Merging, is_rest, written_names
 from twinform.passes.legalise.to_sdf.restore_frames import RestoreFrames
 from twinform.passes.legalise.to_sdf.restore_nested import NameScopes, RestoreNested
@@ -63,6 +64,7 @@ class _Merged:
         self.root = root
         self.texts = texts
         self.sink = sink
+        self.parts = frozenset[tuple[str, str]]()
         self.merging = Merging(with_spellings)
         self.links: list[Link] = [each for each in nodes_of(texts, "link") if isinstance(each, Link)]
         self.joints: list[Joint] = [each for each in nodes_of(texts, "joint") if isinstance(each, Joint)]
@@ -75,9 +77,9 @@ class _Merged:
         model = without_usual(one_model(self.lowered, is_free=_is_free(self.root)))
         model = note_contacts(model, self.root).copy(self_collide=None)
         model = self._named(model)
-        back = sensors_back(self.links, self.joints, self.root, self.sink)
-        self.links, self.joints = back.links, back.joints
-        model = without_parts_of_sensors(model, back.parts)
+        back = sensors_back(self.links, self.joints, self.world, self.root, self.sink)
+        self.links, self.joints, self.world, self.parts = back
+        model = without_parts_of_sensors(model, self.parts)
         model = join_joints(model, self.joints)
         model = self._attached(self._merged(self._with_loops(model)))
         for stale in self.merging.stale:
@@ -194,7 +196,7 @@ class _Merged:
         steps = (NameScopes.unchecked(), RestoreFrames.unchecked(), RestoreNested.unchecked())
         for step in steps:
             model = step.run_model(model, self.sink)
-        model = without_annotation(model, FROM)
+        model = without_annotation(_without_holds(model), FROM)
         return model if origin is None else model.copy(opaque=(Opaque.unchecked(element=origin), *model.opaque))
 
     def _as_document(self, model: Model) -> Document:
@@ -202,11 +204,17 @@ class _Merged:
         # A document of MJCF keeps the defaults of MJCF, and this one was of SDF.
         source = self.lowered.source and self.lowered.source._replace(step="sdf")
         document = Document.unchecked(format=Format.SDF, version=newest, source=source)
-        holder = settle_contacts(model if self.world is None else self._as_world(model, self.world))
-        parts = {"models": (holder,)} if isinstance(holder, Model) else {"worlds": (holder,)}
+        several = self.around is not None and find_annotation(self.around, SEVERAL) is not None
+        if several:
+            alone = self._as_world(model, World.unchecked(name=model.name))
+            holder = settle_contacts(alone)
+            parts = {"models": holder.models, "lights": alone.lights}
+        else:
+            holder = settle_contacts(model if self.world is None else self._as_world(model, self.world))
+            parts = {"models": (holder,)} if isinstance(holder, Model) else {"worlds": (holder,)}
         document = document.copy(**parts)
         if self.around is not None:
-            document = self.merging.merge(document, without_annotation(self.around, FROM, PREFIXES))
+            document = self.merging.merge(document, without_annotation(self.around, FROM, PREFIXES, SEVERAL))
         return document.copy(namespaces=self._namespaces())
 
     def _namespaces(self) -> Namespaces:
@@ -219,6 +227,7 @@ class _Merged:
 
     def _as_world(self, model: Model, partial: World) -> World:
         lowered = self.lowered.worlds[0] if self.lowered.worlds else World.unchecked(name=partial.name)
+        lowered = lowered.copy(lights=without_lights(lowered.lights, self.parts))
         world = lowered.copy(models=model.models, joints=model.joints, frames=model.frames, name=partial.name)
         return self.merging.merge(world, partial)
 
@@ -236,3 +245,19 @@ class _Merged:
 
     def _stale(self, message: str, node: Node) -> None:
         report_stale(self.sink, message, node.source)
+
+
+def _without_holds(model: Model) -> Model:
+    """The model without joints that only hold the static models in it."""
+    static = tuple(scope for scope, each in scoped_models(model) if scope and each.static)
+    kept = tuple(
+        each
+        for each in model.joints
+        if not (
+            is_synthesized(each)
+            and each.type == "fixed"
+            and each.parent == WORLD
+            and (each.child or "").startswith(static or "\0")
+        )
+    )
+    return replace_fields(model, joints=kept)

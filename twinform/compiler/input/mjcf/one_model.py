@@ -58,7 +58,8 @@ def _placed(link: Link, at: Pose | None) -> Link:
     """A root link, whose model has a pose, in the world."""
     if at is None:
         return link
-    return link.copy(pose=Transform.from_pose(at).compose(Transform.from_pose(link.pose)).to_pose())
+    placed = Transform.from_pose(_in_rpy(at)).compose(Transform.from_pose(link.pose and _in_rpy(link.pose)))
+    return link.copy(pose=placed.to_pose())
 
 
 def _held(link: Link, taken: set[str]) -> Joint:
@@ -70,5 +71,6 @@ def _held(link: Link, taken: set[str]) -> Joint:
 def _in_rpy(pose: Pose) -> Pose:
     if pose.quat_xyzw is None:
         return pose
-    plain = Transform.from_pose(pose).to_pose(pose.relative_to)
-    return plain.copy(source=pose.source, opaque=pose.opaque)
+    turn = Transform.from_pose(pose.copy(relative_to=None))
+    rpy = None if turn.is_unturned else turn.rpy()
+    return pose.copy(rpy=rpy, quat_xyzw=None, rotation_format=None)

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from twinform.ir import Format, Frame, Joint, Link, Model
 from twinform.ir.scopes import SCOPE
 from twinform.passes.carriers.annotations import MADE_NAME, find_annotation, is_synthesized, without_annotation
-from twinform.passes.carriers.partial_nodes import written_name
+from twinform.passes.carriers.partial_nodes import written_name, written_names
 from twinform.passes.legalise.changed_names import NAME, Names, renamed
 from twinform.passes.shared.nodes import unique_name
 from twinform.passes.shared.poses import NESTED
@@ -25,7 +25,8 @@ def renamed_parts(model: Model, links: Sequence[Link], joints: Sequence[Joint], 
     names: Names = {}
     free: list[tuple[Part, Node]] = []
     for (part, field), partials in zip(_FIELDS, (links, joints, frames), strict=True):
-        known = {written_name(each): each.name for each in partials}
+        # Several joints that stand for one are joined later, under the names that they have.
+        known = {written_name(each): each.name for each in partials if len(written_names(each)) == 1}
         for node in getattr(model, field):
             old = known.get(_written(node))
             if old is None:

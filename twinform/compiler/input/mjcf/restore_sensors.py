@@ -5,13 +5,14 @@ from typing import NamedTuple, TypeVar
 
 from twinform.compiler.input.mjcf.carried_texts import report_stale
 from twinform.diagnostics import DiagnosticSink
-from twinform.ir import Element, Frame, Joint, Link, Model, Node, Opaque, Sensor, replace_fields, rewrite
+from twinform.ir import Element, Frame, Joint, Light, Link, Model, Node, Opaque, Sensor, World, replace_fields, rewrite
 from twinform.passes.carriers.annotations import find_annotation, without_annotation
 from twinform.passes.carriers.mjcf_texts import PARTS, digest_of
 from twinform.passes.carriers.partial_nodes import REST
 from twinform.passes.legalise.to_mjcf.kept_mjcf import KEPT
 from twinform.schemas import XmlElement
 
+AnyEmitter = TypeVar("AnyEmitter", Sensor, Light)
 AnyHolder = TypeVar("AnyHolder", Link, Joint)
 PartName = tuple[str, str]
 """The tag and the name of an element."""
@@ -22,15 +23,18 @@ class SensorsBack(NamedTuple):
 
     links: list[Link]
     joints: list[Joint]
+    world: World | None
     parts: frozenset[PartName]
 
 
-def sensors_back(links: Iterable[Link], joints: Iterable[Joint], root: XmlElement, sink: DiagnosticSink) -> SensorsBack:
+def sensors_back(
+    links: Iterable[Link], joints: Iterable[Joint], world: World | None, root: XmlElement, sink: DiagnosticSink
+) -> SensorsBack:
     """Find the sensors whose elements are in a canonical tree as they were written; the others are as they stand."""
     elements = {(str(each.tag), each.get("name") or ""): each for each in root.iter()}
     used: set[PartName] = set()
 
-    def back(sensor: Sensor) -> Sensor | None:
+    def back(sensor: AnyEmitter) -> AnyEmitter | None:
         note = find_annotation(sensor, PARTS)
         if note is None:
             return sensor
@@ -39,17 +43,21 @@ def sensors_back(links: Iterable[Link], joints: Iterable[Joint], root: XmlElemen
         digest = digest_of((str(each.tag), {str(k): str(v) for k, v in each.items()}) for each in found)
         if not found or digest != note.get("digest"):
             state = "was edited" if found else "is gone"
-            report_stale(sink, f"what sensor {sensor.name!r} is in MJCF {state}", sensor.source)
+            report_stale(
+                sink, f"what {type(sensor).__name__.lower()} {sensor.name!r} is in MJCF {state}", sensor.source
+            )
             return None
         used.update(names)
         return without_annotation(sensor, PARTS, REST)
 
-    def kept(node: Link | Joint) -> tuple[Sensor, ...]:
-        return tuple(made for each in node.sensors if (made := back(each)) is not None)
+    def kept(parts: tuple[AnyEmitter, ...]) -> tuple[AnyEmitter, ...]:
+        return tuple(made for each in parts if (made := back(each)) is not None)
 
+    world = replace_fields(world, lights=kept(world.lights)) if world else None
     return SensorsBack(
-        [replace_fields(each, sensors=kept(each)) for each in links],
-        [replace_fields(each, sensors=kept(each)) for each in joints],
+        [replace_fields(each, sensors=kept(each.sensors), lights=kept(each.lights)) for each in links],
+        [replace_fields(each, sensors=kept(each.sensors)) for each in joints],
+        world,
         frozenset(used),
     )
 
@@ -68,7 +76,8 @@ def without_parts_of_sensors(model: Model, parts: frozenset[PartName]) -> Model:
         return replace_fields(node, opaque=_opaque(node.opaque, parts))
 
     def bare(node: AnyHolder) -> AnyHolder:
-        return replace_fields(node, sensors=tuple(each for each in node.sensors if not _is_made_of(each, parts)))
+        node = replace_fields(node, sensors=tuple(each for each in node.sensors if not _is_made_of(each, parts)))
+        return replace_fields(node, lights=without_lights(node.lights, parts)) if isinstance(node, Link) else node
 
     model = model.copy(
         links=tuple(map(bare, model.links)),
@@ -76,6 +85,11 @@ def without_parts_of_sensors(model: Model, parts: frozenset[PartName]) -> Model:
         frames=tuple(each for each in model.frames if not _is_site(each, parts)),
     )
     return without_empty(rewrite(model, Node, without))
+
+
+def without_lights(lights: tuple[Light, ...], parts: frozenset[PartName]) -> tuple[Light, ...]:
+    """The lights without those of elements that stand for one that comes back."""
+    return tuple(each for each in lights if ("light", each.name or "") not in parts)
 
 
 def without_empty(model: Model) -> Model:

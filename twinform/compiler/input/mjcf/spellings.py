@@ -8,7 +8,9 @@ import math
 from typing import TypeVar, cast
 
 from twinform.ir import (
+    Axis,
     Collision,
+    Format,
     Geometry,
     Heightmap,
     Inertia,
@@ -17,16 +19,18 @@ from twinform.ir import (
     JointType,
     Limit,
     Mesh,
+    Mimic,
     Node,
     Opaque,
     Pose,
     Visual,
 )
+from twinform.ir.defaults import direction, multiplier
 from twinform.ir.solids import tensor, turned
-from twinform.ir.transform import Transform
+from twinform.ir.transform import Transform, rounded
 from twinform.passes.carriers.absorb import CarrierError, absorb
 from twinform.passes.carriers.annotations import find_annotation, without_annotation
-from twinform.passes.carriers.mjcf_texts import AXES, SHAPE_OF
+from twinform.passes.carriers.mjcf_texts import AXES, SHAPE_OF, TURN
 from twinform.passes.legalise.to_mjcf.looks import Look, look
 from twinform.passes.shared.poses import read_vector
 
@@ -51,7 +55,9 @@ def with_spellings(node: AnyNode, partial: AnyNode) -> tuple[AnyNode, AnyNode]:
     elif isinstance(node, Collision) and isinstance(partial, Collision):
         made = _with_shape(node, partial)
     elif isinstance(node, Joint) and isinstance(partial, Joint):
-        made = _with_type(node, partial), partial
+        made = _with_turn(_with_type(node, partial), partial), without_annotation(partial, TURN)
+    elif isinstance(node, Mimic) and isinstance(partial, Mimic):
+        made = _with_reference(node, partial)
     elif isinstance(node, Limit) and isinstance(partial, Limit):
         made = _with_ends(node, partial), partial
     elif isinstance(node, Inertial) and isinstance(partial, Inertial):
@@ -105,6 +111,34 @@ def _with_type(node: Joint, partial: Joint) -> Joint:
     if partial.type == "continuous" and is_limited:
         return node
     return node.copy(type=partial.type)
+
+
+def _with_turn(node: Joint, partial: Joint) -> Joint:
+    """The joint in the frame of the source, which is turned in its body."""
+    note = find_annotation(partial, TURN)
+    if note is None:
+        return node
+    try:
+        rpy = read_vector(note.get("rpy"))
+    except ValueError:
+        return node
+    back = Transform.from_pose(Pose.unchecked(rpy=rpy)).inverse()
+
+    def turned_axis(axis: Axis | None) -> Axis | None:
+        return axis and axis.copy(xyz=rounded(back.rotate(direction(axis, Format.SDF))))
+
+    pose = (node.pose or Pose.unchecked()).copy(rpy=rpy)
+    return node.copy(pose=pose, axis=turned_axis(node.axis), axis2=turned_axis(node.axis2))
+
+
+def _with_reference(node: Mimic, partial: Mimic) -> tuple[Mimic, Mimic]:
+    """The mimic of the source, if the polynomial of the file is that of it."""
+    factor = multiplier(partial)
+    offset = (partial.offset or 0.0) - factor * (partial.reference or 0.0)
+    same = _is_close(multiplier(node), factor) and _is_close(node.offset or 0.0, offset)
+    if same and (node.joint, node.axis or "axis") == (partial.joint, partial.axis or "axis"):
+        return node.copy(joint=None, axis=None, multiplier=None, offset=None), partial
+    return node, Mimic.unchecked()
 
 
 def _with_ends(node: Limit, partial: Limit) -> Limit:

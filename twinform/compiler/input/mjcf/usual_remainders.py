@@ -11,13 +11,15 @@ AnyNode = TypeVar("AnyNode", bound=Node)
 _KEPT = "mjcf"
 _NAME = f"{{{NAMESPACE}}}{_KEPT}"
 # The groups of visuals and collisions, and what keeps MuJoCo from giving them a mass.
-_USUAL: Mapping[str, Mapping[str, frozenset[str]]] = {
+# The reference of a spring that has no stiffness means nothing, whatever it is.
+_USUAL: Mapping[str, Mapping[str, frozenset[str] | None]] = {
     "compiler": {
         "angle": frozenset({"radian"}),
         "autolimits": frozenset({"false"}),
         "inertiafromgeom": frozenset({"false"}),
     },
     "geom": {"group": frozenset({"2", "3"}), "density": frozenset({"0"})},
+    "joint": {"springref": None},
     "site": {"group": frozenset({"4"})},
 }
 
@@ -47,6 +49,10 @@ def _left_of(part: Opaque) -> Opaque | None:
 
 def _rest_of(element: Element) -> Element | None:
     usual = _USUAL.get(element.name, {})
-    attributes = tuple(pair for pair in element.attributes if pair[1] not in usual.get(pair[0], ()))
+    attributes = tuple(pair for pair in element.attributes if not _is_usual(pair[1], usual.get(pair[0], frozenset())))
     children = tuple(left for each in element.children if (left := _rest_of(each)) is not None)
     return element.copy(attributes=attributes, children=children) if attributes or children else None
+
+
+def _is_usual(value: str, usual: frozenset[str] | None) -> bool:
+    return usual is None or value in usual

@@ -20,6 +20,7 @@ from twinform.ir import (
     Geometry,
     Inertial,
     Joint,
+    Light,
     Limit,
     Link,
     Mesh,
@@ -35,6 +36,7 @@ from twinform.ir.frames import MODEL, WORLD, FrameGraph
 from twinform.ir.transform import Transform
 from twinform.passes.carriers.annotations import FROM, annotation, came_from, is_synthesized
 from twinform.passes.carriers.carriers import NAMESPACE, to_element
+from twinform.passes.carriers.joint_chains import CHAINS
 from twinform.passes.carriers.mjcf_texts import (
     ATTACHED,
     AXES,
@@ -42,7 +44,9 @@ from twinform.passes.carriers.mjcf_texts import (
     LOOP,
     PARTS,
     PREFIXES,
+    SEVERAL,
     SHAPE_OF,
+    TURN,
     bare_xml,
     digest_of,
     text_element,
@@ -75,12 +79,13 @@ def add_texts(context: MjcfContext) -> None:
     model = texts.flat
     texts.add(DOCUMENT, "", texts.document)
     if isinstance(context.holder, World):
-        texts.add("world", "", context.holder)
+        if context.document.worlds:
+            texts.add("world", "", context.holder)
     else:
         texts.add("model", "", model)
     for kind, parts in (("link", model.links), ("joint", model.joints), ("frame", model.frames)):
         for each in parts:
-            texts.add(kind, each.name, each)
+            texts.add(kind, each.name, texts.in_its_link(each) if isinstance(each, Frame) else each)
 
 
 def _only_holds(joint: Joint) -> bool:
@@ -136,13 +141,15 @@ class _Texts:
         document, holder = self.context.document, self.context.holder
         worlds = tuple(each for each in document.worlds if each is not holder)
         models = () if not document.worlds else document.models
-        return document.copy(worlds=worlds, models=models, lights=document.lights if document.worlds else ())
+        return document.copy(worlds=worlds, models=models)
 
     def add(self, kind: str, name: str, node: Node) -> None:
         """Add the text of a node, unless MJCF says all of it, and enter what it holds into the ledger."""
         self.around = name if kind == "link" else ""
         self.joint = node if isinstance(node, Joint) else None
         left = remainder(node, self.said, self.notes)
+        if left is None and isinstance(node, World):  # what is a model has no world around it
+            left = World.unchecked(name=node.name)
         if left is None:
             return
         xml = bare_xml(left, kind)
@@ -156,6 +163,8 @@ class _Texts:
         if found is None:
             return self._said(node)
         left = found[1]
+        if isinstance(node, Light):
+            return Left(node, frozenset({EXISTENCE}))
         if isinstance(left, World):
             return Left(self._without_parts(left))
         if isinstance(left, Sensor):
@@ -166,25 +175,32 @@ class _Texts:
         return self._said(node) if isinstance(node, Visual) else Left(left, said_by_mjcf(left) or frozenset())
 
     def _said(self, node: Node) -> frozenset[str] | None:
+        if isinstance(node, Light):
+            return frozenset({EXISTENCE})
         if isinstance(node, Limit) and self.joint is not None:
             return said_of_limit(node, self.joint)
         if isinstance(node, Axis) and self.joint is not None and self.joint.type not in _DIRECTED:
             return None if self.joint.type == "fixed" else frozenset()
-        if isinstance(node, Joint) and node.name in self.closing:
+        if isinstance(node, Joint):
+            return self._said_of_joint(node)
+        return said_by_mjcf(node) if self._is_written(node) else None
+
+    def _said_of_joint(self, joint: Joint) -> frozenset[str] | None:
+        if joint.name in self.closing:
             return frozenset({EXISTENCE})
-        if isinstance(node, Joint) and node.type == "fixed" and self.is_back:
+        if joint.type == "fixed" and self.is_back:  # where a fixed joint itself is means nothing in URDF
             return frozenset({"name", "parent", "pose"})
-        if isinstance(node, Joint) and node.child in self.hidden:
+        if joint.child in self.hidden:
             return frozenset({"name", "parent", "pose"})
-        if isinstance(node, Visual | Collision) and self._key(node) not in self.geoms:
-            return None
-        if isinstance(node, Link) and node.name not in self.context.written_bodies:
-            return None
-        if isinstance(node, Joint) and node.name not in self.context.written_joints and not _only_holds(node):
-            return None
-        if isinstance(node, Frame) and node.name not in self.context.names.get("site", ()):
-            return None
-        return said_by_mjcf(node)
+        return said_by_mjcf(joint) if joint.name in self.context.written_joints or _only_holds(joint) else None
+
+    def _is_written(self, node: Node) -> bool:
+        """Whether there is an element for a node, if it is of a kind that has one."""
+        if isinstance(node, Visual | Collision):
+            return self._key(node) in self.geoms
+        if isinstance(node, Link):
+            return node.name in self.context.written_bodies
+        return not isinstance(node, Frame) or node.name in self.context.names.get("site", ())
 
     def _without_parts(self, world: World) -> World:
         """What is left of a world, without what is flattened or has texts of its own."""
@@ -194,27 +210,55 @@ class _Texts:
     def notes(self, node: Node) -> tuple[Opaque, ...]:
         """The annotations on a node about its names in MJCF, and about the frames and notation of its poses."""
         found = [annotation(WRITTEN, attributes={"as": name}) for name in self._other_names(node)]
-        if isinstance(node, Document):
-            found += self._provenance(node)
-        if isinstance(node, Visual | Collision):
-            found += self._shape_note(node)
-        if isinstance(node, Inertial) and node.inertia is not None and node.pose is not None:
-            found += _axes_note(node, node.pose)
-        if isinstance(node, Sensor) and id(node) in self.context.left:
-            return (*found, self._parts_note(node))
-        if isinstance(node, Joint) and node.name in self.closing:
-            return (*found, annotation(LOOP))
-        if isinstance(node, Frame):
-            found += self._attached(node)
-        if isinstance(node, Model) and not self.is_back:
-            found += self._offset()
+        match node:
+            case Document():
+                found += self._provenance(node)
+            case Visual() | Collision():
+                found += self._shape_note(node)
+            case Inertial() if node.inertia is not None and node.pose is not None:
+                found += _axes_note(node, node.pose)
+            case Light():
+                found.append(self._parts_note(node))
+            case Sensor() if id(node) in self.context.left:
+                found.append(self._parts_note(node))
+            case Joint() if node.name in self.closing:
+                return (*found, annotation(LOOP), *self._pose_notes(node))
+            case Joint() if node.type != "fixed":
+                found += self._turn(node)
+            case Frame():
+                found += self._attached(node)
+            case Model() if not self.is_back:
+                found += self._offset()
+            case _:
+                pass
+        return (*found, *self._pose_notes(node))
+
+    def _pose_notes(self, node: Node) -> list[Opaque]:
+        """The annotation of the frame and the notation of a pose."""
         pose: Pose | None = getattr(node, "pose", None)
         attributes = pose_attributes(pose)
         if self.is_back and not isinstance(node, Frame):  # in URDF these frames go without saying
             attributes.pop("relative_to", None)
-        if attributes and self.said(node) is not None:
-            found.append(annotation(POSE, attributes=attributes))
-        return tuple(found)
+        return [annotation(POSE, attributes=attributes)] if attributes else []
+
+    def in_its_link(self, frame: Frame) -> Frame:
+        """A frame that has no site, such as that of a nested model, posed in the link that it moves with."""
+        if frame.name in self.context.names.get("site", ()):
+            return frame
+        body = self.graph.body(frame.name, kind="frame")
+        if not self.graph.knows(body) or body == MODEL:
+            return frame
+        pose = self.graph.pose(frame.name, body, kind="frame", base="link").to_pose(body)
+        return frame.copy(attached_to=body, pose=pose)
+
+    def _turn(self, joint: Joint) -> list[Opaque]:
+        """The annotation of how the frame of a joint is turned in its body, which MJCF has only an axis for."""
+        if joint.child is None or not self.graph.knows(joint.child):
+            return []
+        placed = self.graph.pose(joint.name, joint.child, kind="joint", base="link")
+        if placed.is_unturned:
+            return []
+        return [annotation(TURN, attributes={"rpy": " ".join(map(format_value, placed.rpy()))})]
 
     def _attached(self, frame: Frame) -> list[Opaque]:
         """The annotation of what a frame is attached to, if that is not the link that its site is in."""
@@ -240,8 +284,10 @@ class _Texts:
         """The annotations of the version of SDF that the source had, and of the prefixes in it."""
         version = self.context.source_version or document.version
         prefixes = [{"prefix": prefix, "uri": uri} for prefix, uri in document.namespaces if uri != NAMESPACE]
+        is_alone = bool(document.worlds) or isinstance(self.context.holder, Model)
         return [
             annotation(FROM, attributes={"format": Format.SDF.value, "version": version}),
+            *([] if is_alone else [annotation(SEVERAL)]),
             *(annotation(PREFIXES, attributes=each) for each in prefixes),
         ]
 
@@ -257,6 +303,8 @@ class _Texts:
             names = (context.written_bodies.get(node.name, node.name),)
         elif isinstance(node, Joint):
             names = context.written_joints.get(node.name) or (node.name,)
+            if node.type == "screw":  # of whose two joints only the one that turns counts for others
+                names = (f"{node.name}_{CHAINS[node.type][0]}", *names)
         elif isinstance(node, Visual | Collision):
             names = (self.geoms.get(self._key(node), node.name or ""),)
         else:
@@ -275,14 +323,14 @@ class _Texts:
         note = annotation(SHAPE_OF, attributes={"file": file})
         return [note.copy(element=note.element and note.element.copy(children=holder.children))]
 
-    def _parts_note(self, sensor: Sensor) -> Opaque:
-        """The annotation of the elements that a sensor has become."""
-        readings = [each for each in self.context.sections.get("sensor", ()) if each.source is sensor.source]
+    def _parts_note(self, part: Sensor | Light) -> Opaque:
+        """The annotation of the elements that a sensor or light has become."""
+        readings = [each for each in self.context.sections.get("sensor", ()) if each.source is part.source]
         sites = {each.get("site") or each.get("objname") for each in readings}
         in_bodies = [
             each
             for each in self._in_bodies
-            if (each.name == "camera" and each.source is sensor.source)
+            if (each.name in {"camera", "light"} and each.source is part.source)
             or (each.name == "site" and each.get("name") in sites)
         ]
         parts = [*readings, *in_bodies]
@@ -292,9 +340,9 @@ class _Texts:
 
     @cached_property
     def _in_bodies(self) -> list[Element]:
-        """The sites and cameras of all bodies."""
+        """The sites, cameras and lights of all bodies and of the world."""
         bodies = self.context.sections.get("worldbody", [])
-        return [each for body in bodies for each in body.walk() if each.name in {"camera", "site"}]
+        return [each for body in bodies for each in body.walk() if each.name in {"camera", "light", "site"}]
 
     @cached_property
     def geom_elements(self) -> dict[str, Element]:
