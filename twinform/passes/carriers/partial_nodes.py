@@ -23,6 +23,8 @@ REST = "rest"
 """The annotation on a partial node that belongs to a part of the target which says the other half."""
 WRITTEN = "written"
 """The annotation on a partial node with the name that it has in the target: `<tf:written as="base_2"/>`."""
+PLACE = "place"
+"""The annotation on a partial node that the target has not, with its place among its like: `<tf:place index="0"/>`."""
 IDENTITY = frozenset({"name", "type", "kind"})
 """Fields that a partial node has in common with the whole one, by which it is known."""
 _APART = IDENTITY | NOT_CONTENT | {"opaque"}
@@ -152,7 +154,7 @@ class Merging:
                 merged[key] = self.merge(merged[key], partial)
             elif (added := self.added(partial)) is not None:
                 merged[key] = added
-        return tuple(merged.values())
+        return _in_their_places([*merged.values()])
 
     def added(self, partial: AnyNode) -> AnyNode | None:
         """A node that the target does not say at all; None for the rest of one that it said once."""
@@ -170,6 +172,17 @@ class Merging:
             if added is not value and added != value:
                 update[name] = added
         return partial.copy(**update) if update else partial
+
+
+def _in_their_places(nodes: list[AnyNode]) -> tuple[AnyNode, ...]:
+    """The nodes with those in their places that a note gives one."""
+    found = [each for each in nodes if find_annotation(each, PLACE) is None]
+    placed = [(each, find_annotation(each, PLACE)) for each in nodes]
+    for each, note in placed:
+        if note is not None:
+            index = note.get("index") or ""
+            found.insert(int(index) if index.isdecimal() else len(found), without_annotation(each, PLACE))
+    return tuple(found)
 
 
 def is_rest(partial: Node) -> bool:

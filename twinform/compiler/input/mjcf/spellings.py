@@ -119,7 +119,7 @@ def _with_turn(node: Joint, partial: Joint) -> Joint:
     if note is None:
         return node
     try:
-        rpy = read_vector(note.get("rpy"))
+        rpy, xyz = read_vector(note.get("rpy")), read_vector(note.get("xyz"))
     except ValueError:
         return node
     back = Transform.from_pose(Pose.unchecked(rpy=rpy)).inverse()
@@ -128,6 +128,8 @@ def _with_turn(node: Joint, partial: Joint) -> Joint:
         return axis and axis.copy(xyz=rounded(back.rotate(direction(axis, Format.SDF))))
 
     pose = (node.pose or Pose.unchecked()).copy(rpy=rpy)
+    if note.get("xyz") and node.type == "prismatic":
+        pose = pose.copy(xyz=xyz)
     return node.copy(pose=pose, axis=turned_axis(node.axis), axis2=turned_axis(node.axis2))
 
 

@@ -53,7 +53,7 @@ from twinform.passes.carriers.mjcf_texts import (
     text_name,
     xml_data,
 )
-from twinform.passes.carriers.partial_nodes import EXISTENCE, REST, WRITTEN, Left, remainder
+from twinform.passes.carriers.partial_nodes import EXISTENCE, PLACE, REST, WRITTEN, Left, remainder
 from twinform.passes.carriers.said_by_mjcf import said_by_mjcf, said_of_limit
 from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext
 from twinform.passes.legalise.to_urdf.express_axes import ExpressAxes
@@ -113,6 +113,7 @@ class _Texts:
         self.is_back = isinstance(holder, Model) and came_from(holder, Format.URDF)
         self.around = ""
         self.joint: Joint | None = None
+        self.link: Link | None = None
         self.geoms = self._written_geoms()
 
     @cached_property
@@ -147,6 +148,7 @@ class _Texts:
         """Add the text of a node, unless MJCF says all of it, and enter what it holds into the ledger."""
         self.around = name if kind == "link" else ""
         self.joint = node if isinstance(node, Joint) else None
+        self.link = node if isinstance(node, Link) else None
         left = remainder(node, self.said, self.notes)
         if left is None and isinstance(node, World):  # what is a model has no world around it
             left = World.unchecked(name=node.name)
@@ -215,6 +217,7 @@ class _Texts:
                 found += self._provenance(node)
             case Visual() | Collision():
                 found += self._shape_note(node)
+                found += self._place_note(node)
             case Inertial() if node.inertia is not None and node.pose is not None:
                 found += _axes_note(node, node.pose)
             case Light():
@@ -251,14 +254,25 @@ class _Texts:
         pose = self.graph.pose(frame.name, body, kind="frame", base="link").to_pose(body)
         return frame.copy(attached_to=body, pose=pose)
 
+    def _place_note(self, part: Shape) -> list[Opaque]:
+        """The annotation of where a shape without a geom is among those of its link: in URDF only the place tells."""
+        link = self.link
+        if link is None or self._key(part) in self.geoms:
+            return []
+        shapes = link.visuals if isinstance(part, Visual) else link.collisions
+        place = next((index for index, each in enumerate(shapes) if each is part), None)
+        return [] if place is None else [annotation(PLACE, attributes={"index": str(place)})]
+
     def _turn(self, joint: Joint) -> list[Opaque]:
-        """The annotation of how the frame of a joint is turned in its body, which MJCF has only an axis for."""
+        """The annotation of how the frame of a joint is turned in its body, where MJCF only has an axis."""
         if joint.child is None or not self.graph.knows(joint.child):
             return []
         placed = self.graph.pose(joint.name, joint.child, kind="joint", base="link")
-        if placed.is_unturned:
-            return []
-        return [annotation(TURN, attributes={"rpy": " ".join(map(format_value, placed.rpy()))})]
+        turn = None if placed.is_unturned else " ".join(map(format_value, placed.rpy()))
+        # Where a slide is along its axis, and beside it, changes no motion.
+        is_slide = joint.type == "prismatic" and any(placed.translation)
+        place = " ".join(map(format_value, placed.translation)) if is_slide else None
+        return [annotation(TURN, attributes={"rpy": turn, "xyz": place})] if turn or place else []
 
     def _attached(self, frame: Frame) -> list[Opaque]:
         """The annotation of what a frame is attached to, if that is not the link that its site is in."""
