@@ -4,8 +4,8 @@ import math
 from collections.abc import Mapping
 
 from twinform.compiler.input.mjcf.pieces import Piece
-from twinform.compiler.input.mjcf.remainders import RemainderKeeper
-from twinform.ir import Axis, Dynamics, Joint, JointType, Limit, Mimic, Pose
+from twinform.compiler.input.mjcf.remainders import RemainderKeeper, holder
+from twinform.ir import Axis, Dynamics, Joint, JointType, Limit, Mimic, Opaque, Pose
 from twinform.ir.defaults import AXIS
 from twinform.ir.document import Format
 from twinform.ir.transform import rounded
@@ -37,9 +37,19 @@ def lower_joint(
         child=child,
         pose=pose,
         axis=axis,
-        opaque=keeper.rest(piece),
+        opaque=_rest(piece, axis, keeper),
         source=piece.source,
     )
+
+
+def _rest(piece: Piece, axis: Axis | None, keeper: RemainderKeeper) -> tuple[Opaque, ...]:
+    """Return what is left of a joint, and that it has no limit of force itself where that of its actuators is said."""
+    element = keeper.rest_element(piece)
+    has_effort = axis is not None and axis.limit is not None and axis.limit.effort is not None
+    if has_effort and not is_limited(piece, "actuatorfrclimited", "actuatorfrcrange"):
+        others = tuple(pair for pair in element.attributes if pair[0] != "actuatorfrclimited")
+        element = element.copy(attributes=(*others, ("actuatorfrclimited", "false")))
+    return (holder(element),) if element.attributes else ()
 
 
 def _ball_axis(piece: Piece) -> Axis | None:

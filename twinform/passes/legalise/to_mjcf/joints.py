@@ -18,7 +18,7 @@ from twinform.ir.transform import Transform, rounded
 from twinform.passes.carriers.joint_chains import CHAINS, TWO_AXES, metres_per_radian
 from twinform.passes.legalise.changed_names import source_name
 from twinform.passes.legalise.to_mjcf.elements import Value, make_element, position
-from twinform.passes.legalise.to_mjcf.kept_mjcf import with_kept
+from twinform.passes.legalise.to_mjcf.kept_joints import with_kept_joint
 from twinform.passes.legalise.to_mjcf.writing_context import Body, MjcfContext, scope_of
 
 _KINDS: dict[JointType, str] = {
@@ -66,7 +66,7 @@ def _elements(context: MjcfContext, body: Body, between: JointBetween) -> Iterat
     name = _name(context, between, scope_of(between.name) + source_name(joint))
     context.written_joints[between.name] = (name,)
     element = _element(context, body, between, at, joint.axis, name)
-    yield with_kept(element, joint)
+    yield with_kept_joint(element, joint)
 
 
 def _two_axes(context: MjcfContext, body: Body, between: JointBetween, at: Transform) -> Iterator[Element]:
@@ -76,7 +76,7 @@ def _two_axes(context: MjcfContext, body: Body, between: JointBetween, at: Trans
     names = (_name(context, between, f"{between.name}_{suffix}"), _name(context, between, between.name))
     context.written_joints[between.name] = names
     yield _element(context, body, between, at, joint.axis, names[0])
-    yield with_kept(_element(context, body, between, at, joint.axis2, names[1]), joint)
+    yield with_kept_joint(_element(context, body, between, at, joint.axis2, names[1]), joint)
 
 
 def _screw(context: MjcfContext, body: Body, between: JointBetween, at: Transform) -> Iterator[Element]:
@@ -93,7 +93,7 @@ def _screw(context: MjcfContext, body: Body, between: JointBetween, at: Transfor
     context.written_joints[between.name] = (turn,)
     along = Axis.unchecked(xyz=joint.axis.xyz, expressed_in=joint.axis.expressed_in) if joint.axis else None
     yield _element(context, body, between, at, along, slide, kind="slide")
-    yield with_kept(_element(context, body, between, at, joint.axis, turn), joint)
+    yield with_kept_joint(_element(context, body, between, at, joint.axis, turn), joint)
     message = f"screw joint {joint.name!r} is a slide and a hinge, which a constraint couples"
     context.approximate(rules.JOINT_CHAIN, message, joint.location)
     polynomial = (0.0, pitch, 0.0, 0.0, 0.0)
