@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Unpack
 
 from twinform.compiler.input.allowances import OF_OTHER_PARTS, Allowances, content_of, without_consequences
+from twinform.compiler.input.expansion import Expansion
 from twinform.compiler.input.finding_lines import with_exact_lines
 from twinform.compiler.input.front_ends import (
     LARGE,
@@ -99,6 +100,12 @@ def _read_source(source: str | Path | bytes, sink: DiagnosticSink, load_options:
         if not isinstance(source, bytes) and (load_options.xacro or str(source).lower().endswith(XACRO)):
             return _read_xacro(Path(source), sink, load_options)
         text = source if isinstance(source, bytes) else bytes_of(Path(source), sink, load_options)
+        if not isinstance(source, bytes) and not load_options.as_mjcf and b"<mujoco" in text and b"<include" in text:
+            from twinform.compiler.input.mjcf.splice_includes import splice_includes  # noqa: PLC0415 - few files do
+
+            spliced = splice_includes(Path(source), text, sink, load_options)
+            if spliced is not None:
+                return _read_expansion(spliced, text, sink, load_options)
     except UnreadableError as error:
         # Fixes of what cannot be expanded are made in the texts of the files, which nothing has expanded.
         texts: Mapping[str, bytes] = getattr(error, "texts", {})
@@ -205,10 +212,15 @@ def _read_xacro(path: Path, sink: DiagnosticSink, load_options: LoadOptions) -> 
         raise UnreadableError
     expansion = expand(path, load_options, sink)
     load_options.search.seen.update(map(Path, {place.file for place in expansion.origins.places}))
+    return _read_expansion(expansion, _unexpanded(path, load_options), sink, load_options)
+
+
+def _read_expansion(expansion: Expansion, main: bytes, sink: DiagnosticSink, load_options: LoadOptions) -> LoadResult:
+    """Read the text that several files make; the main one has the comments that allow findings."""
     name = expanded_name(sink.file)
     sink.origins[name] = expansion.origins
     allowances = load_options.allowances(sink.file, sink.origins)
-    allowances.read(_unexpanded(path, load_options), sink)
+    allowances.read(main, sink)
     loaded = _read_text(expansion.text, DiagnosticSink(name, sink.strict), load_options, allowances)
     sink.extend(_at_its_text(each, expansion.strays) for each in loaded.diagnostics)
     if any(each.rule is rules.DUPLICATE_NAME for each in sink.diagnostics):
@@ -347,8 +359,10 @@ def read_document(
     if is_mjcf and not load_options.as_mjcf and not sink.has_errors:
         from twinform.compiler.input.mjcf import lower_mjcf  # noqa: PLC0415 - few files are MJCF
 
-        document = lower_mjcf(root, context, load_options)
-        namespaces = document.namespaces
+        lowered = lower_mjcf(root, context, load_options)
+        context.broken = context.broken or lowered is None
+        document = lowered or document
+        namespaces = document.namespaces if lowered else namespaces
     amend(document, "namespaces", namespaces)
     allowances.settle(sink)
     return document, context, None if is_used_up else root, size, comments

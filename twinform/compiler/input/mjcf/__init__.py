@@ -16,8 +16,13 @@ from twinform.schemas import Context, XmlElement
 __all__ = ["lower_mjcf"]
 
 
-def lower_mjcf(root: XmlElement, context: Context, load_options: LoadOptions) -> Document:
-    """Build the document of a `<mujoco>` in the terms of SDF; the tree is left as it is."""
+def lower_mjcf(root: XmlElement, context: Context, load_options: LoadOptions) -> Document | None:
+    """Build the document of a `<mujoco>` in the terms of SDF; the tree is left as it is.
+
+    There is none where the tree has errors that leave no model, which are reported.
+    """
     canonical = normalize(root, context, load_options)
+    if canonical is None:
+        return None
     texts = take_texts(canonical, context)
     return merge_texts(lower(canonical, context, load_options, root), texts, canonical, context.sink)

@@ -1,12 +1,33 @@
-"""Canonical MJCF: the tree of a file in which every element says all of itself."""
+"""Canonical MJCF: the tree of a file in which every element says all of itself.
 
-from copy import deepcopy
+MuJoCo makes the same model of it as of the file. There are no classes, frames, replicates and attached models in it;
+angles are in radians, orientations are unit quaternions, shapes have a pose and a size, ranges say whether they limit,
+files are named from the folder of the main file, and each section stands once.
+"""
 
 from twinform.compiler.input.load_options import LoadOptions
+from twinform.compiler.input.mjcf.canonical_values import write_canonical_values
+from twinform.compiler.input.mjcf.compiler_settings import CompilerSettings, rewrite_compiler
+from twinform.compiler.input.mjcf.default_classes import DefaultClasses
+from twinform.compiler.input.mjcf.element_findings import ElementFindings, numbered_copy, take_numbers_out
+from twinform.compiler.input.mjcf.expand_frames import expand_frames, is_too_large
+from twinform.compiler.input.mjcf.merge_sections import merge_sections
 from twinform.schemas import Context, XmlElement
 
 
-def normalize(root: XmlElement, context: Context, load_options: LoadOptions) -> XmlElement:
-    """Return a canonical copy of a tree."""
-    del context, load_options
-    return deepcopy(root)
+def normalize(root: XmlElement, context: Context, load_options: LoadOptions) -> XmlElement | None:
+    """Return a canonical copy of a tree, or None where there is none, which is reported."""
+    copy, originals = numbered_copy(root)
+    findings = ElementFindings(context, originals)
+    if is_too_large(copy, findings, load_options.limits.tags):
+        return None
+    settings = CompilerSettings.of(copy)
+    DefaultClasses.of(copy, findings).merge_into(copy)
+    for section in list(copy.iterchildren("default")):
+        copy.remove(section)
+    merge_sections(copy)
+    write_canonical_values(copy, settings, findings)
+    expand_frames(copy, settings, findings)
+    rewrite_compiler(copy)
+    take_numbers_out(copy)
+    return copy

@@ -1,0 +1,122 @@
+"""Where elements of MJCF refer to others by name, and of which kind those are."""
+
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from typing import NamedTuple
+
+from twinform.schemas import XmlElement
+
+KINDS = {
+    "body": "body",
+    "joint": "joint",
+    "freejoint": "joint",
+    "geom": "geom",
+    "site": "site",
+    "camera": "camera",
+    "light": "light",
+    "flexcomp": "flex",
+}
+"""The kinds of the named elements in bodies."""
+ASSET_KINDS = {name: name for name in ("mesh", "material", "texture", "hfield", "skin", "model")}
+"""The kinds of assets."""
+SECTION_KINDS = {
+    "equality": "equality",
+    "tendon": "tendon",
+    "actuator": "actuator",
+    "sensor": "sensor",
+    "keyframe": "key",
+}
+"""The kinds of what stands in a section, whatever the elements are called."""
+_OTHER_KINDS = {
+    ("contact", "pair"): "pair",
+    ("contact", "exclude"): "exclude",
+    ("custom", "numeric"): "numeric",
+    ("custom", "text"): "text",
+    ("custom", "tuple"): "tuple",
+    ("deformable", "flex"): "flex",
+    ("deformable", "skin"): "skin",
+}
+_OF_ATTRIBUTE = {
+    "body": "body", "body1": "body", "body2": "body", "subtree1": "body", "subtree2": "body",
+    "joint": "joint", "joint1": "joint", "joint2": "joint", "jointinparent": "joint",
+    "geom": "geom", "geom1": "geom", "geom2": "geom",
+    "site": "site", "site1": "site", "site2": "site", "refsite": "site", "cranksite": "site", "slidersite": "site",
+    "sidesite": "site",
+    "tendon": "tendon", "tendon1": "tendon", "tendon2": "tendon",
+    "actuator": "actuator", "camera": "camera", "flex": "flex", "mesh": "mesh", "material": "material",
+    "hfield": "hfield", "texture": "texture",
+}  # fmt: skip
+"""The kind that an attribute refers to, in all elements that have it."""
+_OF_OBJECT = {"objname": "objtype", "refname": "reftype"}
+"""The attributes whose kind another attribute says."""
+_OBJECTS = {"xbody": "body", "key": "key"}
+_SECONDARY = frozenset({"reftype", "refname", "refsite", "cranksite", "slidersite", "sidesite", "material", "mesh"})
+"""References without which an element would still be what it is."""
+
+
+class Reference(NamedTuple):
+    """An attribute that names another element."""
+
+    element: XmlElement
+    attribute: str
+    kind: str
+    name: str
+
+    @property
+    def is_secondary(self) -> bool:
+        """Whether the element is about something else."""
+        return self.attribute in _SECONDARY
+
+
+def kind_of(element: XmlElement, section: str) -> str | None:
+    """Return the kind of thing that an element of a section is, if it is one that can be referred to."""
+    if section == "worldbody":
+        return KINDS.get(str(element.tag))
+    if section == "asset":
+        return ASSET_KINDS.get(str(element.tag))
+    return SECTION_KINDS.get(section) or _OTHER_KINDS.get((section, str(element.tag)))
+
+
+def references_in(element: XmlElement, kinds: Iterable[str] | None = None) -> Iterator[Reference]:
+    """Yield the references of an element and of those in it, of some kinds alone where these are given."""
+    wanted = None if kinds is None else set(kinds)
+    for each in element.iter("*"):
+        for reference in own_references(each):
+            if wanted is None or reference.kind in wanted:
+                yield reference
+
+
+def own_references(element: XmlElement) -> Iterator[Reference]:
+    """Yield the references of one element."""
+    for key, value in element.items():
+        name = str(key)
+        kind = _OF_ATTRIBUTE.get(name)
+        if name in _OF_OBJECT:
+            said = element.get(_OF_OBJECT[name], "")
+            kind = _OBJECTS.get(said, said)
+        elif name == "target" and element.tag in {"camera", "light"}:
+            kind = "body"
+        if kind and value and not _is_no_reference(element, name):
+            yield Reference(element, name, kind, str(value))
+
+
+def _is_no_reference(element: XmlElement, name: str) -> bool:
+    """Whether an attribute that is called as a reference is something else, or a list of names."""
+    return element.tag == "flex" and name == "body"
+
+
+def names_in(elements: Iterable[XmlElement]) -> dict[str, set[str]]:
+    """Return the names in a kinematic tree, by their kinds."""
+    found: dict[str, set[str]] = {}
+    for element in elements:
+        for each in element.iter("*"):
+            kind, name = KINDS.get(str(each.tag)), each.get("name")
+            if kind and name:
+                found.setdefault(kind, set()).add(name)
+    return found
+
+
+def rename(element: XmlElement, names: Mapping[str, Iterable[str]], change: Callable[[str], str]) -> None:
+    """Change the names that an element and those in it refer to, where they are among some names."""
+    for reference in list(references_in(element)):
+        if reference.name in names.get(reference.kind, ()):
+            reference.element.set(reference.attribute, change(reference.name))
