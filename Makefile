@@ -25,7 +25,7 @@ DEMO := out/demo
 # tests start the command a thousand times: it must not be compiled each time
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: help sync fmt generate lint site pictures screens wheel floors pythons packaging test verify demo report imports bench latency vsix size before prove coverage fuzz clean
+.PHONY: help sync fmt generate lint site pictures screens wheel floors pythons packaging test verify demo report imports bench latency vsix size before prove coverage fuzz mjcf clean
 
 help: ## this list
 	@grep -hE '^[a-z]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/^([a-z]+):.*## (.*)/\1\t\2/' | expand -t 12
@@ -184,6 +184,14 @@ report: export TWINFORM_NODE_MODULES = $(CURDIR)/out/readers/node_modules
 $(ROBOTS): $(ORACLES)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[robots]'
 	touch $@
+
+# files of MJCF for tests/oracles/test_canonical_mjcf.py
+MJCF_PACKAGES := dm_control gymnasium-robotics robosuite gymnasium metaworld myosuite
+
+mjcf: $(ORACLES) # download the packages with models for MuJoCo, which are not installed
+	mkdir -p out/mjcf/files
+	$(BIN)/python -m pip download --quiet --no-deps --only-binary :all: --dest out/mjcf $(MJCF_PACKAGES)
+	for wheel in out/mjcf/*.whl; do $(BIN)/python -m zipfile --extract $$wheel out/mjcf/files; done
 
 $(READERS): $(ORACLES)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[readers]'

@@ -20,7 +20,9 @@ def _name(case: Case) -> str:
     return str(case.path.relative_to(_CASES))
 
 
-@pytest.mark.parametrize("case", [*cases(_CASES / "check"), *cases(_CASES / "xacro")], ids=_name)
+@pytest.mark.parametrize(
+    "case", [each for folder in ("check", "mjcf", "xacro") for each in cases(_CASES / folder)], ids=_name
+)
 def test_check_finds_what_the_case_announces(case: Case) -> None:
     assert case.mismatches() == []
 

@@ -95,7 +95,7 @@ WITHOUT_CASE = {
 def _found() -> dict[str, set[str]]:
     """The rules that each case triggers, by the path of the case."""
     found: dict[str, set[str]] = defaultdict(set)
-    for folder in ("check", "xacro"):
+    for folder in ("check", "mjcf", "xacro"):
         for case in cases(_CASES / folder):
             found[_name(case)] = _rules(twinform.check(case.path).diagnostics)
     for case in cases(_CASES / "includes"):

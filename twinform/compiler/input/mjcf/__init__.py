@@ -19,10 +19,10 @@ __all__ = ["lower_mjcf"]
 def lower_mjcf(root: XmlElement, context: Context, load_options: LoadOptions) -> Document | None:
     """Build the document of a `<mujoco>` in the terms of SDF; the tree is left as it is.
 
-    There is none where the tree has errors that leave no model, which are reported.
+    There is none where the tree has errors, which are reported: names that lead nowhere, for one.
     """
     canonical = normalize(root, context, load_options)
-    if canonical is None:
+    if canonical is None or context.sink.has_errors:
         return None
     texts = take_texts(canonical, context)
     return merge_texts(lower(canonical, context, load_options, root), texts, canonical, context.sink)

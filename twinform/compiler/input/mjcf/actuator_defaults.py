@@ -59,6 +59,14 @@ class _State(NamedTuple):
 
 def actuator_values(element: XmlElement, levels: Sequence[ActuatorLevel]) -> dict[str, str]:
     """Return the values that an actuator takes from its class, which the levels from the top one down make up."""
+    states = _states(levels)
+    if (
+        states
+        and element.tag == _GENERAL
+        and _is_shortcut(states[-1])
+        and not any(name in element.attrib for name in _RAW)
+    ):
+        element.tag = states[-1].kind  # a `general` that says nothing of its gains is what its class was written as
     tag = str(element.tag)
     mechanical = _merged(
         {name: text for name, text in values.items() if name in _MECHANICAL}
@@ -66,7 +74,11 @@ def actuator_values(element: XmlElement, levels: Sequence[ActuatorLevel]) -> dic
         for _, values in level.written
     )
     found = {name: text for name, text in mechanical.items() if tag in _ONLY_IN.get(name, ACTUATORS)}
-    return {**found, **_gains(tag, _states(levels))}
+    return {**found, **_gains(tag, states)}
+
+
+def _is_shortcut(state: _State) -> bool:
+    return state.kind not in {_GENERAL, "plugin"} and not any(name in state.values for name in _RAW)
 
 
 def _states(levels: Iterable[ActuatorLevel]) -> list[_State]:
@@ -93,8 +105,10 @@ def _gains(tag: str, states: Sequence[_State]) -> dict[str, str]:
         values = states[-1].values if states else dict[str, str]()
         return {name: text for name, text in values.items() if name in {"actdim", "actearly", "dyntype", "dynprm"}}
     for state in reversed(states):
+        if state.kind == tag and not any(name in state.values for name in _RAW):
+            return dict(state.values)
         if state.kind == tag:
-            return _without_raw(state.values)
+            return _shortcut_of(tag, _raw_of(state)) or _without_raw(state.values)
         read = _shortcut_of(tag, state.values) if state.kind == _GENERAL and state.values else None
         if read is not None:
             return read

@@ -130,6 +130,7 @@ def _place_between(element: XmlElement, findings: ElementFindings) -> None:
     if length < TINY:
         message = f"the two points of 'fromto' are one, so that the {shape} has no direction"
         findings.report(rules.UNUSABLE_SIZE, element, message, "@fromto", found=element.get("fromto"))
+        element.set("size", "1 1 1")  # nothing else is wrong with it
         del element.attrib["fromto"]
         return
     del element.attrib["fromto"]

@@ -4,9 +4,9 @@ The copies of a replicate have a number behind their names. What refers to somet
 as a sensor, is copied with it. How much comes of all copies is counted before anything is copied.
 """
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Container, Iterable, Iterator
 from copy import deepcopy
-from typing import NamedTuple
+from typing import NamedTuple, cast
 
 from lxml import etree
 
@@ -33,6 +33,9 @@ _FOLLOWING = ("contact", "tendon", "equality", "actuator", "sensor", "custom")
 """The sections whose elements are copied with what they refer to, each behind those that it may refer to."""
 _NAMED_BY_SECTION = {"tendon": "tendon", "actuator": "actuator"}
 _POSED = frozenset({"body", "geom", "site", "camera", "frame", "flexcomp", "attach"})
+_HELD_TOGETHER = frozenset({"connect", "weld", "joint", "tendon"})
+_KINDS_OF_BODIES = frozenset(KINDS.values())
+_BEFORE = etree.XPath("preceding::*/@name | ancestor::*/@name")
 _SCALES = ("scale", "massscale")
 
 
@@ -91,15 +94,12 @@ def _expand_replicate(
     replicate: XmlElement, root: XmlElement, settings: CompilerSettings, findings: ElementFindings
 ) -> None:
     count = _count(replicate)
-    if count < 1:
-        message = "'count' has to be at least 1"
-        findings.report(rules.OUT_OF_RANGE, replicate, message, "@count", found=replicate.get("count"), refused=True)
     for joint in replicate.iterchildren("joint", "freejoint"):
         message = "a joint may not stand in <replicate>, which would give its body several ones"
         findings.report(rules.JOINTS_OF_A_BODY, joint, message, help="write a <body> around it")
     step = FramePose(_vector(replicate, "offset"), _turn_of(replicate, settings, findings))
     names = names_in(replicate)
-    suffixes = [f"{replicate.get('sep', '')}{number:0{len(str(count - 1))}}" for number in range(count)]
+    suffixes = [f"{replicate.get('sep', '')}{number:0{len(str(count))}}" for number in range(count)]
     copies: list[XmlElement] = []
     pose = FramePose()
     for suffix in suffixes:
@@ -110,9 +110,10 @@ def _expand_replicate(
             place_in(copy, pose)
             copies.append(copy)
         pose = pose.of(step)
-    _replace(replicate, copies)
+    before = _NamesBefore(replicate)
     if names:
-        copy_followers(root, names, suffixes)
+        copy_followers(root, names, suffixes, before)
+    _replace(replicate, copies)
 
 
 def add_to_names(element: XmlElement, names: dict[str, set[str]], before: str, behind: str) -> None:
@@ -124,12 +125,18 @@ def add_to_names(element: XmlElement, names: dict[str, set[str]], before: str, b
     rename(element, names, lambda name: f"{before}{name}{behind}")
 
 
-def copy_followers(root: XmlElement, names: dict[str, set[str]], suffixes: Iterable[str]) -> None:
-    """Copy the elements of other sections that refer to what was copied, once for each suffix, and take them out."""
+def copy_followers(
+    root: XmlElement, names: dict[str, set[str]], suffixes: Iterable[str], before: Container[str]
+) -> None:
+    """Copy the elements of other sections that refer to what was copied, once for each suffix, and take them out.
+
+    All else that such an element refers to has to be among the names `before` the copies. As in MuJoCo, others are
+    not copied, and constraints between what was copied and anything else are left out.
+    """
     known = {kind: set(each) for kind, each in names.items()}
     followers: list[tuple[XmlElement, list[XmlElement]]] = []
     for section in (section for tag in _FOLLOWING for section in root.iterchildren(tag)):
-        found = [each for each in _elements(section) if _follows(each, known)]
+        found = [each for each in _elements(section) if _follows(each, known) and _can_follow(each, known, before)]
         followers.append((section, found))
         kind = _NAMED_BY_SECTION.get(str(section.tag))
         if kind:
@@ -153,9 +160,31 @@ def _follows(element: XmlElement, names: dict[str, set[str]]) -> bool:
     return any(each.name in names.get(each.kind, ()) for each in references_in(element))
 
 
+def _can_follow(element: XmlElement, names: dict[str, set[str]], before: Container[str]) -> bool:
+    """Whether all that an element refers to is copied, or known when the copies are made."""
+    if element.tag in _HELD_TOGETHER:
+        return True
+    of_bodies = (each for each in references_in(element) if each.kind in _KINDS_OF_BODIES)
+    return all(each.name in names.get(each.kind, ()) or each.name in before for each in of_bodies)
+
+
+class _NamesBefore:
+    """The names that stand before an element in its file, looked for when somebody asks."""
+
+    def __init__(self, element: XmlElement) -> None:
+        self._element = element
+        self._found: frozenset[str] | None = None
+
+    def __contains__(self, name: object) -> bool:
+        if self._found is None:
+            before = cast("list[str]", _BEFORE(self._element))
+            self._found = frozenset(["world", *map(str, before)])
+        return name in self._found
+
+
 def _is_whole(element: XmlElement, names: dict[str, set[str]]) -> bool:
     """Whether all that a constraint holds together was copied: MuJoCo leaves others out."""
-    if element.tag not in {"connect", "weld", "joint", "tendon"}:
+    if element.tag not in _HELD_TOGETHER:
         return True
     return all(each.name in names.get(each.kind, ()) for each in own_references(element))
 
@@ -214,9 +243,9 @@ def _turn_of(replicate: XmlElement, settings: CompilerSettings, findings: Elemen
 
 
 def _count(replicate: XmlElement) -> int:
-    """Return how many copies a replicate makes; 0 where it says no number."""
+    """Return how many copies a replicate makes: none where it says no number, or a negative one."""
     try:
-        return int(replicate.get("count", "0"))
+        return max(int(replicate.get("count", "0")), 0)
     except ValueError:
         return 0
 

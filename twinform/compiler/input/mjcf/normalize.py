@@ -7,6 +7,10 @@ files are named from the folder of the main file, and each section stands once.
 
 from twinform.compiler.input.load_options import LoadOptions
 from twinform.compiler.input.mjcf.canonical_values import write_canonical_values
+from twinform.compiler.input.mjcf.check_bodies import check_bodies
+from twinform.compiler.input.mjcf.check_references import check_names, check_references
+from twinform.compiler.input.mjcf.check_relations import check_relations
+from twinform.compiler.input.mjcf.check_shapes import check_notations, check_shapes
 from twinform.compiler.input.mjcf.compiler_settings import CompilerSettings, rewrite_compiler
 from twinform.compiler.input.mjcf.default_classes import DefaultClasses
 from twinform.compiler.input.mjcf.element_findings import ElementFindings, numbered_copy, take_numbers_out
@@ -16,7 +20,10 @@ from twinform.schemas import Context, XmlElement
 
 
 def normalize(root: XmlElement, context: Context, load_options: LoadOptions) -> XmlElement | None:
-    """Return a canonical copy of a tree, or None where there is none, which is reported."""
+    """Return a canonical copy of a tree, or None where it would be too large, which is reported.
+
+    All is reported that is wrong with the tree and that its schema cannot say.
+    """
     copy, originals = numbered_copy(root)
     findings = ElementFindings(context, originals)
     if is_too_large(copy, findings, load_options.limits.tags):
@@ -26,8 +33,19 @@ def normalize(root: XmlElement, context: Context, load_options: LoadOptions) -> 
     for section in list(copy.iterchildren("default")):
         copy.remove(section)
     merge_sections(copy)
+    check_notations(copy, findings)
     write_canonical_values(copy, settings, findings)
     expand_frames(copy, settings, findings)
     rewrite_compiler(copy)
+    check_canonical(copy, findings)
     take_numbers_out(copy)
     return copy
+
+
+def check_canonical(root: XmlElement, findings: ElementFindings) -> None:
+    """Report what MuJoCo refuses in a canonical tree and its schema cannot say."""
+    named = check_names(root, findings)
+    check_references(root, named, findings)
+    check_shapes(root, findings)
+    check_bodies(root, findings)
+    check_relations(root, named, findings)

@@ -1,0 +1,128 @@
+"""The models of the file format MJCF that are tested with MuJoCo: our cases, and the files of published packages.
+
+`make mjcf` downloads the packages into `out/mjcf`; TWINFORM_MJCF names another folder with their files.
+"""
+
+import os
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from lxml import etree
+
+from twinform.compiler.input.load_options import LoadOptions
+from twinform.compiler.input.mjcf.normalize import normalize
+from twinform.compiler.input.mjcf.splice_includes import splice_includes
+from twinform.compiler.input.parsing import UnreadableError
+from twinform.diagnostics import Diagnostic, DiagnosticSink
+from twinform.schemas import Context, XmlElement, known_version, versions_of
+
+ROOT = Path(__file__).parents[1]
+CASES = ROOT / "tests" / "cases" / "mjcf"
+PACKAGES = Path(os.environ.get("TWINFORM_MJCF") or ROOT / "out" / "mjcf" / "files")
+_NOT_COMPARED = frozenset({
+    "names", "paths", "text_data", "names_map", "signature", "buffer", "npaths", "nnames",
+    "nnames_map", "nbuffer", "narena",
+})  # fmt: skip
+_PATHS = ("_pathadr", "pathadr")
+_TOLERANCE = 1e-9
+_OF_DRAWN_TENDONS = frozenset({"tendon_rgba", "tendon_width", "tendon_matid"})
+"""A fixed tendon takes these of its class, draws nothing, and has no attributes for them."""
+
+
+def package_files() -> list[Path]:
+    """Return the files of packages whose root is `mujoco`, sorted."""
+    return sorted(path for path in PACKAGES.rglob("*.xml") if _is_mjcf(path))
+
+
+def _is_mjcf(path: Path) -> bool:
+    try:
+        return etree.parse(path, etree.XMLParser(recover=True)).getroot().tag == "mujoco"
+    except (etree.XMLSyntaxError, AttributeError):
+        return False
+
+
+def canonical(path: Path) -> tuple[XmlElement | None, list[Diagnostic]]:
+    """Return the canonical tree of a file, or None, and what was found on the way."""
+    sink, options = DiagnosticSink(str(path)), LoadOptions.of({"paths": [PACKAGES]})
+    text = path.read_bytes()
+    try:
+        spliced = splice_includes(path, text, sink, options)
+    except UnreadableError:
+        return None, sink.diagnostics
+    root = etree.fromstring(spliced.text if spliced else text, etree.XMLParser(remove_comments=True, remove_pis=True))
+    version = known_version("mjcf", versions_of("mjcf")[-1])
+    assert version is not None
+    return normalize(root, Context(sink, str(path), "mjcf", version), options), sink.diagnostics
+
+
+def load(mujoco: Any, path: Path) -> Any:
+    """Return MuJoCo's model of a file, or None where it refuses the file."""
+    try:
+        return mujoco.MjModel.from_xml_path(str(path))
+    except ValueError:
+        return None
+
+
+def load_canonical(mujoco: Any, path: Path, tree: XmlElement) -> Any:
+    """Return MuJoCo's model of a canonical tree, written beside the file that it comes from, so that meshes are found.
+
+    Raises:
+        ValueError: MuJoCo refuses it.
+    """
+    beside = path.with_name(f".canonical-{os.getpid()}-{path.name}")
+    try:
+        beside.write_bytes(etree.tostring(tree, pretty_print=True))
+        return mujoco.MjModel.from_xml_path(str(beside))
+    finally:
+        beside.unlink(missing_ok=True)
+
+
+def differences(mujoco: Any, one: Any, other: Any) -> list[str]:
+    """Return the fields in which two models of MuJoCo differ by more than 1e-9."""
+    import numpy as np  # noqa: PLC0415 - it comes with MuJoCo, which is not everywhere
+
+    found = [name for name, a, b in _arrays(one, other) if not _are_equal(np, a, b)]
+    if "body_iquat" in found and _are_equal(np, _inertias(mujoco, np, one), _inertias(mujoco, np, other)):
+        found.remove("body_iquat")  # the principal axes of one matrix, in another order or sign
+    if "names" in found or one.names != other.names:
+        found.append("names")
+    if _has_fixed_tendons(mujoco, one):
+        found = [name for name in found if name not in _OF_DRAWN_TENDONS]
+    return [name for name in found if not name.endswith(_PATHS)]
+
+
+def _arrays(one: Any, other: Any) -> Iterator[tuple[str, Any, Any]]:
+    for holder in ("", "opt", "stat", "vis"):
+        a, b = (getattr(each, holder) if holder else each for each in (one, other))
+        for name in dir(a):
+            if name[0] == "_" or name in _NOT_COMPARED or name.startswith("name_"):
+                continue
+            value = getattr(a, name)
+            if hasattr(value, "dtype") or isinstance(value, int | float):
+                yield name, value, getattr(b, name)
+
+
+def _are_equal(np: Any, a: Any, b: Any) -> bool:
+    a, b = np.asarray(a), np.asarray(b)
+    if a.shape != b.shape:
+        return False
+    if a.dtype.kind != "f":
+        return bool((a == b).all())
+    return bool(np.allclose(a, b, rtol=_TOLERANCE, atol=_TOLERANCE, equal_nan=True))
+
+
+def _inertias(mujoco: Any, np: Any, model: Any) -> Any:
+    """Return the inertia of each body about its own axes."""
+    found = []
+    for quaternion, moments in zip(model.body_iquat, model.body_inertia, strict=True):
+        matrix = np.zeros(9)
+        mujoco.mju_quat2Mat(matrix, quaternion)
+        turn = matrix.reshape(3, 3)
+        found.append(turn @ np.diag(moments) @ turn.T)
+    return np.array(found)
+
+
+def _has_fixed_tendons(mujoco: Any, model: Any) -> bool:
+    kinds = {int(kind) for kind in model.wrap_type}
+    return int(mujoco.mjtWrap.mjWRAP_JOINT) in kinds
