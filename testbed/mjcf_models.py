@@ -114,7 +114,7 @@ def _are_equal(np: Any, a: Any, b: Any) -> bool:
 
 def _inertias(mujoco: Any, np: Any, model: Any) -> Any:
     """Return the inertia of each body about its own axes."""
-    found = []
+    found: list[Any] = []
     for quaternion, moments in zip(model.body_iquat, model.body_inertia, strict=True):
         matrix = np.zeros(9)
         mujoco.mju_quat2Mat(matrix, quaternion)

@@ -11,7 +11,7 @@ from dataclasses import field
 from typing import NamedTuple
 
 from twinform.compiler.input.mjcf.actuator_defaults import ACTUATORS, ActuatorLevel, actuator_values
-from twinform.compiler.input.mjcf.element_findings import ElementFindings
+from twinform.compiler.input.mjcf.element_findings import NUMBER, ElementFindings
 from twinform.dataclass import dataclass
 from twinform.diagnostics import nearest_name, rules
 from twinform.schemas import XmlElement
@@ -24,6 +24,8 @@ _FILLED_UP = frozenset({
     "solreflimit", "solimplimit", "solreffriction", "solimpfriction",
 })  # fmt: skip
 """Lists of numbers of which an element may write only the first ones."""
+_OF_NO_CLASS = frozenset({"name", "class", NUMBER})
+"""What is said of one element alone; a name in a class is reported, and not passed on."""
 _EQUALITIES = frozenset({"connect", "weld", "joint", "tendon", "flex", "flexstrain"})
 _SPATIAL_ONLY = ("material", "rgba", "width")
 _BODIES = frozenset({"body", "worldbody", "frame", "replicate"})
@@ -186,7 +188,7 @@ def _with_values(parent: ClassValues, element: XmlElement) -> ClassValues:
 
 def _over(values: Mapping[str, str], element: XmlElement) -> dict[str, str]:
     """Return values with those of an element of a class over them."""
-    own = {str(name): str(text) for name, text in element.items()}
+    own = {str(name): str(text) for name, text in element.items() if name not in _OF_NO_CLASS}
     if any(name in own for name in ROTATIONS):
         values = {name: text for name, text in values.items() if name not in ROTATIONS}
     filled = {name: _filled_up(own[name], values[name]) for name in _FILLED_UP if name in own and name in values}

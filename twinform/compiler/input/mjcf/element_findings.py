@@ -13,7 +13,8 @@ from twinform.diagnostics import Rule
 from twinform.schemas import Context, XmlElement
 from twinform.schemas.messages import FindingDetails
 
-_NUMBER = "twinform-number"
+NUMBER = "twinform-number"
+"""The attribute that has the number of an element."""
 
 
 @dataclass(slots=True)
@@ -29,7 +30,7 @@ class ElementFindings:
     ) -> None:
         """Report at the element of the file that one of the tree came from, or at a step below it."""
         self.count += 1
-        number = element.get(_NUMBER, "0")
+        number = element.get(NUMBER, "0")
         self.context.report(rule, self.originals[int(number)], message, step, **more)
 
 
@@ -38,16 +39,16 @@ def numbered_copy(root: XmlElement) -> tuple[XmlElement, list[XmlElement]]:
     copy = deepcopy(root)
     originals: list[XmlElement] = []
     for number, (original, element) in enumerate(zip(_elements(root), _elements(copy), strict=True)):
-        element.set(_NUMBER, str(number))
+        element.set(NUMBER, str(number))
         originals.append(original)
     return copy, originals
 
 
 def give_number(element: XmlElement, other: XmlElement) -> None:
     """Let the findings about an element, and all below it, be reported where those about another one are."""
-    number = other.get(_NUMBER, "0")
+    number = other.get(NUMBER, "0")
     for each in _elements(element):
-        each.set(_NUMBER, number)
+        each.set(NUMBER, number)
         set_line(each, other)
 
 
@@ -59,7 +60,7 @@ def set_line(element: XmlElement, other: XmlElement) -> None:
 def take_numbers_out(root: XmlElement) -> None:
     """Remove the numbers from a tree."""
     for element in _elements(root):
-        element.attrib.pop(_NUMBER, None)
+        element.attrib.pop(NUMBER, None)
 
 
 def _elements(root: XmlElement) -> Iterator[XmlElement]:
