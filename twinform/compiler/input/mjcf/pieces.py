@@ -5,6 +5,7 @@ the ledger. So nothing of a file can be forgotten: what no code knows is a remai
 """
 
 import math
+from collections import Counter
 from collections.abc import Iterator
 
 from twinform.diagnostics import Location, Source
@@ -31,12 +32,12 @@ class Piece:
 
     __slots__ = ("_attributes", "inside", "is_settled", "kept", "name", "source", "tag", "taken")
 
-    def __init__(self, element: XmlElement, file: str, above: Source | None = None) -> None:
+    def __init__(self, element: XmlElement, file: str, above: Source | None = None, place: int | None = None) -> None:
         self.tag = str(element.tag)
         self._attributes = {str(name): str(value) for name, value in element.items()}
         self.name = self._attributes.get("name") or None
-        self.source = Source(file, element.sourceline or 0, above, self.tag, self.name or _place(element))
-        self.inside = tuple([Piece(child, file, self.source) for child in children(element)])
+        self.source = Source(file, element.sourceline or 0, above, self.tag, self.name or place)
+        self.inside = tuple([Piece(child, file, self.source, place) for child, place in _placed(element)])
         self.taken: set[str] = set()
         self.kept: set[str] = set()
         self.is_settled = False
@@ -113,17 +114,25 @@ class Piece:
         """The attributes that are neither expressed nor kept, which nothing should have when a file is lowered."""
         return tuple(name for name in self._attributes if name not in self.taken and name not in self.kept)
 
+    @property
+    def attributes(self) -> tuple[str, ...]:
+        """The names of the attributes, in their order."""
+        return tuple(self._attributes)
+
     def whole(self) -> Element:
         """Return the element with all in it."""
         inside = tuple(each.whole() for each in self.inside)
         return Element.unchecked(name=self.tag, attributes=tuple(self._attributes.items()), children=inside)
 
 
-def _place(element: XmlElement) -> int | None:
-    """Return the place of an element without a name among its like, or None where it is the only one."""
-    holder = element.getparent()
-    alike = [] if holder is None else holder.findall(str(element.tag))
-    return alike.index(element) + 1 if len(alike) > 1 else None
+def _placed(element: XmlElement) -> Iterator[tuple[XmlElement, int | None]]:
+    """Yield the elements in an element, each with its place among its like, or None where it is the only one."""
+    inside = list(children(element))
+    alike = Counter(str(child.tag) for child in inside)
+    places = Counter[str]()
+    for child in inside:
+        places[str(child.tag)] += 1
+        yield child, places[str(child.tag)] if alike[str(child.tag)] > 1 else None
 
 
 def numbers_in(text: str | None) -> Numbers:

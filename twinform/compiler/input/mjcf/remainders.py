@@ -7,7 +7,7 @@ Such an element holds only what the node around it does not say. Where the docum
 the written element lacks are added, and what the node says wins.
 """
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TypeVar
 
 from twinform.compiler.input.mjcf.pieces import Piece
@@ -96,8 +96,7 @@ class RemainderKeeper:
         weight = 0
         for each in piece.walk():
             each.is_settled = True
-            element = each.whole()
-            each.kept.update(name for name, _ in element.attributes)
+            each.kept.update(each.attributes)
             weight += 1 + len(each.kept & self._attributes_of(each))
         element = piece.whole()
         message = f"<{piece.tag}>{_called(piece)} is kept as it is: {why or reason(piece.tag, section)}"
@@ -142,15 +141,18 @@ def in_sections(sections: Mapping[str, Iterable[Element]]) -> tuple[Opaque, ...]
 
 def _joined(sections: Iterable[Element]) -> tuple[Element, ...]:
     """Join sections of one name that have no attributes of their own."""
-    joined: dict[str, Element] = {}
+    alike: dict[str, list[Element]] = {}
     for each in sections:
-        before = joined.get(each.name)
-        if before is None:
-            joined[each.name] = each
-        else:
-            attributes = (*before.attributes, *each.attributes)
-            joined[each.name] = before.copy(attributes=attributes, children=(*before.children, *each.children))
-    return tuple(joined.values())
+        alike.setdefault(each.name, []).append(each)
+    return tuple(found[0] if len(found) == 1 else _join(found) for found in alike.values())
+
+
+def _join(sections: Sequence[Element]) -> Element:
+    """Return one section with all that several of its name have."""
+    return sections[0].copy(
+        attributes=tuple(pair for each in sections for pair in each.attributes),
+        children=tuple(child for each in sections for child in each.children),
+    )
 
 
 def reason(*words: str) -> str:
