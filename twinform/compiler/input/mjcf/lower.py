@@ -67,6 +67,9 @@ class FileLowering:
         self.scale = scale_of(settings, [each.solid.mass for each in self.inertias.values()])
         self.followers = followers(self.sections.inside("equality"))
         self.efforts = efforts(self.sections.inside("actuator"))
+        self.sensors: dict[int | None, list[SiteSensor]] = {}
+        for found in by_site(self.sections.inside("sensor")):
+            self.sensors.setdefault(self.owners.of_part("site", found.site), []).append(found)
 
     @property
     def is_world(self) -> bool:
@@ -101,7 +104,7 @@ class FileLowering:
         lowering = TreeLowering(tree, self.geoms, self.keeper, self.inertias, self.scale, self.followers, self.efforts)
         parts = lowering.lower()
         self._close_loops(number, lowering, parts)
-        self._add_sensors(parts)
+        self._add_sensors(number, parts)
         given = reserve_name(safe_name(name or _MODEL), taken)
         is_static = lowering.is_static and self.is_world
         model = Model.unchecked(
@@ -118,8 +121,8 @@ class FileLowering:
         return with_rest(model, in_sections(self._left_of(number)))
 
     def _close_loops(self, number: int, lowering: TreeLowering, parts: TreeParts) -> None:
-        for piece in self.sections.inside("equality"):
-            if piece.is_settled or self.owners.of(piece) != number:
+        for piece in self.owners.about(number, "equality"):
+            if piece.is_settled:
                 continue
             unnamed = f"{piece.peek('body1')}_{piece.peek('body2')}_{piece.tag}"
             links = parts.links_of
@@ -132,9 +135,9 @@ class FileLowering:
                 marks = _name_mark(piece.name, made)
                 parts.joints.append(joint.copy(name=made, opaque=(*marks, *joint.opaque)))
 
-    def _add_sensors(self, parts: TreeParts) -> None:
+    def _add_sensors(self, number: int, parts: TreeParts) -> None:
         """Put the sensors at the sites of a model on its links and joints."""
-        for found in by_site(self.sections.inside("sensor")):
+        for found in self.sensors.get(number, ()):
             if found.site not in parts.sites or any(each.is_settled for each in found.pieces):
                 continue
             link, frame = parts.sites[found.site]
@@ -157,15 +160,12 @@ class FileLowering:
     def _left_of(self, number: int) -> dict[str, list[Element]]:
         """Return what no node says of the sections and is about one tree alone."""
         left: dict[str, list[Element]] = {}
-        for section in self.sections.all:
-            if section.tag in {WORLDBODY, "asset", "compiler", "option", "default"}:
+        for tag in self.sections.tags:
+            if tag in {WORLDBODY, "asset", "compiler", "option", "default"}:
                 continue
-            for piece in section.inside:
-                if self.owners.of(piece) != number:
-                    continue
-                if piece.is_settled:
-                    continue
-                left.setdefault(section.tag, []).append(self._rest(piece, section.tag))
+            for piece in self.owners.about(number, tag):
+                if not piece.is_settled:
+                    left.setdefault(tag, []).append(self._rest(piece, tag))
         return left
 
     def _rest(self, piece: Piece, section: str) -> Element:

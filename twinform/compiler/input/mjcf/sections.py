@@ -36,6 +36,11 @@ class Sections:
         return tuple(each for section in self.of(tag) for each in section.inside)
 
     @property
+    def tags(self) -> tuple[str, ...]:
+        """The names of the sections."""
+        return tuple(self._by_tag)
+
+    @property
     def all(self) -> tuple[Piece, ...]:
         """All sections, those of one name together."""
         return tuple(each for found in self._by_tag.values() for each in found)
@@ -46,6 +51,8 @@ class Owners:
 
     def __init__(self, trees: Sequence[Piece], sections: Sections) -> None:
         self._trees: dict[tuple[str, str], int] = {}
+        self._sections = sections
+        self._about: dict[str, dict[int | None, list[Piece]]] = {}
         for number, tree in enumerate(trees):
             for each in tree.walk():
                 if each.tag in _NAMED and each.name is not None:
@@ -57,6 +64,18 @@ class Owners:
                 owner = self.of(each)
                 if owner is not None and each.name is not None:
                     self._trees.setdefault((kind, each.name), owner)
+
+    def about(self, number: int, tag: str) -> Sequence[Piece]:
+        """Return the elements of all sections of a name that are about one tree alone."""
+        if tag not in self._about:
+            found = self._about[tag] = {}
+            for each in self._sections.inside(tag):
+                found.setdefault(self.of(each), []).append(each)
+        return self._about[tag].get(number, ())
+
+    def of_part(self, kind: str, name: str) -> int | None:
+        """Return the tree that a named part is in."""
+        return self._trees.get((kind, name))
 
     def of(self, piece: Piece) -> int | None:
         """Return the one tree that all parts which an element names are in; None where there are none or several."""
