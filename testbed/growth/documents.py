@@ -4,7 +4,11 @@ import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 
-_ENDS = {"urdf": ('<robot name="r">', "</robot>"), "sdf": ('<sdf version="1.11">', "</sdf>")}
+_ENDS = {
+    "urdf": ('<robot name="r">', "</robot>"),
+    "sdf": ('<sdf version="1.11">', "</sdf>"),
+    "mjcf": ("<mujoco>", "</mujoco>"),
+}
 
 
 @dataclass(frozen=True, slots=True)

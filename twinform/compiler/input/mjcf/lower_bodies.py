@@ -6,6 +6,7 @@ body without a joint is fixed to its parent, or to the world.
 """
 
 from collections.abc import Iterator, Mapping
+from functools import cached_property
 from typing import NamedTuple
 
 from twinform.compiler.input.mjcf.contact_masks import Bits
@@ -85,7 +86,7 @@ class TreeLowering:
         """Whether its root floats."""
         return any(joint_type(each) == FREE for each in self.root.all_of(*JOINTS))
 
-    @property
+    @cached_property
     def mocap(self) -> frozenset[str | None]:
         """The names of bodies that only a program moves: what holds another one to them is no joint."""
         return frozenset(each.name for each in self.root.walk() if each.peek("mocap") == "true")
