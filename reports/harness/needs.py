@@ -16,6 +16,7 @@ def need(is_here: Callable[[], bool], missing: str) -> Callable[[], str]:
 
 corpus = need(files.CORPUS.is_dir, files.MISSING)
 drake = need(lambda: oracles.available("drake"), "Drake is not here: pip install '.[engines]'")
+mujoco = need(lambda: oracles.available("mujoco"), "MuJoCo is not here: pip install '.[engines]'")
 libsdformat = need(sdformat12.available, sdformat12.MISSING)
 urdfdom = need(check_urdf.available, check_urdf.MISSING)
 urdfdom_6 = need(check_urdf.available_6, check_urdf.MISSING_6)

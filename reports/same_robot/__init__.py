@@ -8,5 +8,6 @@ SECTIONS = {
     "contacts": "Contacts",
     "versions": "Versions of SDF",
     "older_urdf": "Versions of URDF",
+    "mjcf": "MJCF",
 }
 """The sections of the page by the names of their modules, each with its title, in the order of the page."""

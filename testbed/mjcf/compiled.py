@@ -148,9 +148,12 @@ def compile_urdf(text: bytes, folder: str | None = None, *, absent_is_nothing: b
 
 
 def without_meshes(text: str) -> str:
-    """MJCF without its meshes and height fields, and the geoms of these."""
+    """MJCF without its meshes, textures and height fields, without their geoms, and without what names these."""
     root = etree.fromstring(text.encode())
-    for each in [*root.iterfind("asset"), *root.iterfind(".//geom[@mesh]"), *root.iterfind(".//geom[@hfield]")]:
+    gone = [*root.iterfind(".//geom[@mesh]"), *root.iterfind(".//geom[@hfield]")]
+    names = {geom.get("name") for geom in gone} - {None}
+    naming = [each for each in root.iterfind("sensor/*") if names & {each.get("geom1"), each.get("geom2")}]
+    for each in [*root.iterfind("asset"), *gone, *naming]:
         around = each.getparent()
         if around is not None:
             around.remove(each)
