@@ -44,7 +44,18 @@ class _Match:
 
     def __init__(self, plant: Any, bodies: drake.Parts, joints: drake.Parts, made: Compiled) -> None:
         self.plant, self.bodies, self.made = plant, bodies, made
-        self.joints = {name: joint for name, joint in joints.items() if joint.num_velocities()}
+        self.joints = {
+            self._name_in_ours(name, joint): joint for name, joint in joints.items() if joint.num_velocities()
+        }
+
+    def _name_in_ours(self, name: str, joint: Any) -> str:
+        """The name that a joint has in the file: Drake puts it into the model of its child, however deep that is."""
+        scopes = name.split("::")
+        for count in range(len(scopes) - 1, -1, -1):
+            found = "::".join([*scopes[:count], scopes[-1]])
+            if set(self._names(found, joint)) <= self.made.joints.keys():
+                return found
+        return name
 
     def unmatched(self) -> Iterator[str]:
         """Yield what only one of them has."""

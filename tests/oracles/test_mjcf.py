@@ -1,0 +1,115 @@
+"""What MuJoCo makes of our MJCF: the robot that it reads from the URDF itself, and that Drake reads from the SDF."""
+
+import re
+from pathlib import Path
+from typing import Any
+
+import pytest
+from hypothesis import given, settings
+
+import twinform
+from twinform.compiler import CompileError
+from twinform.compiler.output.emitting import document_text
+from twinform.ir import Box, Capsule, Cylinder, Document, Ellipsoid, Sphere
+from twinform.testing import strategies
+
+np: Any = pytest.importorskip("numpy")
+pytest.importorskip("mujoco")
+
+from testbed.engines.readers.meshless import without_meshes as boxed  # noqa: E402
+from testbed.mjcf.compiled import UnreadableError, compile_mjcf, compile_urdf, without_meshes  # noqa: E402
+from testbed.mjcf.differences import differences  # noqa: E402
+
+_ROOT = Path(__file__).parents[2]
+_CASES = _ROOT / "tests/cases"
+_EXAMPLES = [_ROOT / "examples" / name for name in ("arm.urdf", "rover.urdf", "four_wheels.urdf", "sensor_base.urdf")]
+_SHAPES = (Box, Capsule, Cylinder, Ellipsoid, Sphere)
+_REFUSALS = frozenset({"massless-link", "unbalanced-inertia", "indefinite-inertia", "automatic-inertia"})
+"""What a model may be refused for that MuJoCo would refuse."""
+_GEARBOX = re.compile(r'<joint name="gears".*?</joint>', re.DOTALL)
+_OCTAHEDRON = """v 1 0 0
+v -1 0 0
+v 0 1.5 0
+v 0 -1 0
+v 0 0 1
+v 0 0 -2
+f 1 3 5
+f 3 2 5
+f 2 4 5
+f 4 1 5
+f 3 1 6
+f 2 3 6
+f 4 2 6
+f 1 4 6
+"""
+
+
+@pytest.mark.parametrize("path", _EXAMPLES, ids=lambda path: path.name)
+def test_a_robot_of_urdf_is_the_one_that_mujoco_reads(path: Path) -> None:
+    text = boxed(path.read_bytes())
+    made = compile_mjcf(twinform.convert(text, to="mjcf").text)
+    assert differences(compile_urdf(text, absent_is_nothing=True), made) == []
+
+
+def test_a_mesh_is_where_mujoco_puts_that_of_the_urdf(tmp_path: Path) -> None:
+    (tmp_path / "meshes").mkdir()
+    (tmp_path / "meshes/part.obj").write_text(_OCTAHEDRON)
+    mesh = f'<geometry><mesh filename="{tmp_path}/meshes/part.obj" scale="1 2 0.5"/></geometry>'
+    body = '<inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'
+    origin = '<origin xyz="0.1 0.2 0.3" rpy="0.4 0.5 0.6"/>'
+    path = tmp_path / "robot.urdf"
+    path.write_text(
+        f'<robot name="r"><link name="a"/><link name="b">{body}<visual>{origin}{mesh}</visual>'
+        f'<collision name="c">{origin}{mesh}</collision></link><joint name="j" type="continuous">'
+        '<parent link="a"/><child link="b"/><axis xyz="0 0 1"/></joint></robot>'
+    )
+    source = compile_urdf(path.read_bytes(), absent_is_nothing=True)
+    made = twinform.convert(path, to="mjcf").text
+    assert made.count("<mesh ") == 1
+    assert differences(source, compile_mjcf(made, str(tmp_path))) == []
+
+
+@given(strategies.robots(shapes=_SHAPES))
+@settings(deadline=None)
+def test_mujoco_reads_every_robot_that_is_written(robot: Document) -> None:
+    _assert_read(robot)
+
+
+@given(strategies.sdf_models(shapes=_SHAPES))
+@settings(deadline=None)
+def test_mujoco_reads_every_model_that_is_written(model: Document) -> None:
+    _assert_read(model)
+
+
+def _assert_read(document: Document) -> None:
+    """MuJoCo reads what is written of a document, or it is refused for what MuJoCo would refuse."""
+    text = document_text(document).encode()
+    try:
+        made = twinform.convert(text, to="mjcf").text
+    except CompileError as error:
+        refused = {each.rule.name for each in error.diagnostics if each.is_error}
+    else:
+        refused = set[str]()
+        compile_mjcf(without_meshes(made))
+    assert refused <= _REFUSALS
+
+
+@given(strategies.robots(shapes=_SHAPES))
+@settings(deadline=None)
+def test_every_robot_moves_as_the_one_that_mujoco_reads(robot: Document) -> None:
+    text = document_text(robot).encode()
+    try:
+        source = compile_urdf(text, absent_is_nothing=True)
+    except UnreadableError:
+        return
+    assert differences(source, compile_mjcf(twinform.convert(text, to="mjcf").text)) == []
+
+
+def test_joints_of_sdf_move_as_in_drake(tmp_path: Path) -> None:
+    pytest.importorskip("pydrake")
+    from testbed.mjcf.from_drake import differences_from_drake  # noqa: PLC0415 - it needs Drake
+
+    path = tmp_path / "chains.sdf"
+    # Drake has no gearbox, and refuses a file with one.
+    path.write_text(_GEARBOX.sub("", (_CASES / "to_mjcf/chains.sdf").read_text(encoding="utf-8")))
+    assert differences_from_drake(path, compile_mjcf(twinform.convert(path, to="mjcf").text)) == []
