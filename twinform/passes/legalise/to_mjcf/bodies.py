@@ -18,12 +18,14 @@ from twinform.passes.legalise.to_mjcf.elements import make_element, placement
 from twinform.passes.legalise.to_mjcf.geoms import geom_elements
 from twinform.passes.legalise.to_mjcf.inertials import inertial_elements, report_weightless, weight_of
 from twinform.passes.legalise.to_mjcf.joints import joint_elements
-from twinform.passes.legalise.to_mjcf.kept_mjcf import with_kept
+from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements, with_kept
 from twinform.passes.legalise.to_mjcf.lights import body_lights
 from twinform.passes.legalise.to_mjcf.sensors import body_sensors, joint_sensors
 from twinform.passes.legalise.to_mjcf.sites import body_sites
 from twinform.passes.legalise.to_mjcf.writing_context import Body, MjcfContext, scope_of
 
+_INSIDE = frozenset({"camera", "site", "light", "geom", "plugin", "composite", "flexcomp", "attach"})
+"""What a link keeps of its body that SDF has nothing for, such as a camera that follows another body."""
 MOST_DEEP = 400
 """So many bodies may be nested: MuJoCo's parser of XML refused 497, and what writes XML here calls itself for each."""
 
@@ -143,6 +145,7 @@ class _BodyTree:
             *(part for each in hold.joints for part in joint_sensors(context, body, each)),
             *body_sensors(context, body),
             *body_lights(context, body),
+            *(each for each in kept_elements(body.link) if each.name in _INSIDE),
         ]
 
     def _element(self, body: Body, hold: Hold, children: list[Element]) -> Element:

@@ -9,7 +9,7 @@ import math
 from twinform.ir import Element, Pose, Sensor
 from twinform.ir.transform import Transform
 from twinform.passes.legalise.to_mjcf.elements import Value, make_element, placement
-from twinform.passes.legalise.to_mjcf.kept_mjcf import with_kept
+from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements, with_kept
 from twinform.passes.legalise.to_mjcf.said_parts import child_count, child_number, child_vector
 from twinform.passes.legalise.to_mjcf.writing_context import Body, MjcfContext
 
@@ -41,10 +41,17 @@ def camera_element(
         ("name", name),
         *placement(_place(context, camera, body, place).compose(OPTICAL)),
         ("fovy", vertical_view(view, width, height)),
-        ("resolution", (width, height)),
+        ("resolution", _resolution(context, sensor, width, height)),
         ("output", _OUTPUTS.get(sensor.type or "")),
     ]
     return with_kept(make_element("camera", attributes, source=sensor.source), sensor)
+
+
+def _resolution(context: MjcfContext, sensor: Sensor, width: int, height: int) -> tuple[int, int] | None:
+    """The resolution; None for a camera of MJCF whose file states none, or one that SDF cannot have."""
+    kept = any(each.name == "camera" and each.get("resolution") for each in kept_elements(sensor))
+    is_usual = context.is_of_mjcf and (width, height) == (WIDTH, HEIGHT)
+    return None if kept or is_usual else (width, height)
 
 
 def vertical_view(horizontal: float, width: int, height: int) -> float:

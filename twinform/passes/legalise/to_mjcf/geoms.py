@@ -25,10 +25,11 @@ from twinform.ir.geometry import (
 from twinform.ir.node import Vector3
 from twinform.ir.pose import Pose
 from twinform.ir.transform import Transform
+from twinform.passes.carriers.annotations import SAME_GEOM, find_annotation
 from twinform.passes.legalise.to_mjcf.assets import height_field, mesh_asset, vector_in
 from twinform.passes.legalise.to_mjcf.contacts import touch_of
 from twinform.passes.legalise.to_mjcf.elements import Attributes, Value, make_element, placement
-from twinform.passes.legalise.to_mjcf.kept_mjcf import with_kept
+from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements, with_kept
 from twinform.passes.legalise.to_mjcf.materials import look_of
 from twinform.passes.legalise.to_mjcf.writing_context import Body, MjcfContext
 from twinform.passes.mesh_jobs.mesh_files import NoMeshError
@@ -36,7 +37,8 @@ from twinform.passes.mesh_jobs.mesh_files import NoMeshError
 AnyPart = TypeVar("AnyPart", Visual, Collision)
 _SEEN, _TOUCHED = 2, 3
 """The groups of visuals and of collisions."""
-_SEEN_ONLY: Attributes = (("contype", "0"), ("conaffinity", "0"), ("group", str(_SEEN)), ("density", "0"))
+_UNTOUCHED: Attributes = (("contype", "0"), ("conaffinity", "0"))
+_WEIGHTLESS: Attributes = (("density", "0"),)
 _GRID = 1.0
 """The distance in m of the lines that are drawn on a plane."""
 _UP: Vector3 = (0.0, 0.0, 1.0)
@@ -56,15 +58,32 @@ def geom_elements(context: MjcfContext, body: Body) -> list[Element]:
         FrameError: a frame is not known, or frames go round in a circle.
     """
     found: list[Element] = []
+    twins = {each.name: each for each in body.link.visuals if find_annotation(each, SAME_GEOM) is not None}
+    done: set[int] = set()
     for collision in body.link.collisions:
         if (shape := _shape_of(context, body, collision)) is not None:
-            touch = [*touch_of(context, body, collision), *([("group", str(_TOUCHED))] if context.has_visuals else [])]
-            found.append(_geom(context, body, collision, shape, touch))
+            twin = twins.get(collision.name)
+            more = [*touch_of(context, body, collision), *_group(context, collision, _TOUCHED)]
+            if twin is not None and (twin.geometry, twin.pose) == (collision.geometry, collision.pose):
+                done.add(id(twin))
+                more += look_of(context, body, twin)
+            found.append(_geom(context, body, collision, shape, more))
+            if twin is not None and id(twin) in done and id(collision) in context.written_geoms:
+                context.written_geoms[id(twin)] = context.written_geoms[id(collision)]
     for visual in body.link.visuals:
-        if (shape := _shape_of(context, body, visual)) is not None:
-            look = [*_SEEN_ONLY, *look_of(context, body, visual)]
-            found.append(_geom(context, body, visual, shape, look))
+        if id(visual) not in done and (shape := _shape_of(context, body, visual)) is not None:
+            group = _group(context, visual, _SEEN)
+            more = [*_UNTOUCHED, *group, *_WEIGHTLESS, *look_of(context, body, visual)]
+            found.append(_geom(context, body, visual, shape, more))
     return found
+
+
+def _group(context: MjcfContext, part: Visual | Collision, group: int) -> list[tuple[str, Value]]:
+    """The group of a geom: collisions are in one of their own where there are visuals; one of MJCF stays in its own."""
+    kept = any(each.name == "geom" and each.get("group") for each in kept_elements(part))
+    if kept or context.is_of_mjcf or (group == _TOUCHED and not context.has_visuals):
+        return []
+    return [("group", str(group))]
 
 
 def _geom(context: MjcfContext, body: Body, part: AnyPart, shape: Solid, more: Attributes) -> Element:

@@ -7,6 +7,7 @@ was given actuators by a pass does too. In a world with several models the joint
 from collections.abc import Mapping
 
 from twinform.ir import Element
+from twinform.ir.scopes import SCOPE
 from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements
 from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext
 
@@ -14,43 +15,77 @@ SINGLE = frozenset({"compiler", "option", "size", "visual", "statistic"})
 """Sections that are one element with attributes: what is added to them is merged."""
 _ONES: Mapping[str, str] = {
     **dict.fromkeys(("joint", "joint1", "joint2", "jointinparent"), "joint"),
-    **dict.fromkeys(("body", "body1", "body2"), "body"),
-    **dict.fromkeys(("site", "site1", "site2", "slidersite", "cranksite", "refsite"), "site"),
+    **dict.fromkeys(("body", "body1", "body2", "subtree1", "subtree2", "target"), "body"),
+    **dict.fromkeys(("site", "site1", "site2", "slidersite", "cranksite", "refsite", "sidesite"), "site"),
 }
 """The kind of part that an attribute names."""
+_BY_TYPE: Mapping[str, str] = {"objname": "objtype", "refname": "reftype"}
+"""Attributes that name a part whose kind stands in another one."""
+
+
+class _Names:
+    """The names that parts have in MJCF by their kinds and scoped names, and by their own where only one has it."""
+
+    def __init__(self, context: MjcfContext) -> None:
+        # of several joints that stand for one, the last has its name
+        joints = {name: written[-1] for name, written in context.written_joints.items() if written}
+        kinds = {"joint": joints, "body": context.written_bodies, "site": context.written_sites}
+        self._scoped: Mapping[str, Mapping[str, str]] = kinds
+        self._alone: dict[tuple[str, str], str | None] = {}
+        for kind, names in kinds.items():
+            for name, written in names.items():
+                key = (kind, name.rpartition(SCOPE)[2])
+                self._alone[key] = None if key in self._alone else written
+
+    def of(self, kind: str, scope: str, name: str) -> str:
+        """The name in MJCF of a part that is called so in a scope."""
+        known = self._scoped.get(kind, {})
+        return known.get(scope + name) or self._alone.get((kind, name)) or name
 
 
 def add_kept_sections(context: MjcfContext) -> None:
     """Add what the holder and all models in it keep. All other sections are complete."""
     inner = [(scope, each) for scope, each in context.models if each is not context.holder]
+    names = _Names(context)
     for scope, each in (("", context.holder), *inner):
         for kept in kept_elements(each):
-            _add(context, kept, scope)
+            if kept.name in SINGLE:
+                context.add(kept.name, kept)
+                continue
+            for part in kept.children:
+                _add(context, kept.name, _renamed(part, names, scope))
 
 
-def _add(context: MjcfContext, kept: Element, scope: str) -> None:
-    if kept.name in SINGLE:
-        context.add(kept.name, kept)
-        return
-    for each in kept.children:
-        context.add(kept.name, _renamed(context, each, scope))
+def _add(context: MjcfContext, section: str, element: Element) -> None:
+    """Add an element to a section, or to the one of its name that is there, such as a material that visuals have."""
+    there, key = context.sections[section], (element.name, element.get("name"))
+    same = [index for index, each in enumerate(there) if key[1] and (each.name, each.get("name")) == key]
+    if same:
+        there[same[0]] = _merged(there[same[0]], element)
+    else:
+        context.add(section, element)
 
 
-def _renamed(context: MjcfContext, element: Element, scope: str) -> Element:
+def _merged(element: Element, kept: Element) -> Element:
+    """An element with the attributes that it lacks and the children of one that was kept."""
+    known = {key for key, _ in element.attributes}
+    more = tuple(each for each in kept.attributes if each[0] not in known)
+    return element.copy(attributes=(*element.attributes, *more), children=(*element.children, *kept.children))
+
+
+def _renamed(element: Element, names: _Names, scope: str) -> Element:
     """The element with the names that the parts of its model have in MJCF."""
-    attributes = tuple((key, _name(context, _ONES.get(key), scope, value)) for key, value in element.attributes)
-    children = tuple(_renamed(context, each, scope) for each in element.children)
-    return element.copy(attributes=attributes, children=children)
+    attributes = tuple(
+        (key, names.of(kind, scope, value) if (kind := _kind(element, key)) else value)
+        for key, value in element.attributes
+    )
+    return element.copy(
+        attributes=attributes, children=tuple(_renamed(each, names, scope) for each in element.children)
+    )
 
 
-def _name(context: MjcfContext, kind: str | None, scope: str, value: str) -> str:
-    scoped = scope + value
-    if kind == "joint":
-        # of several joints that stand for one, the last has its name
-        names = context.written_joints.get(scoped)
-        return names[-1] if names else value
-    if kind == "body":
-        return context.written_bodies.get(scoped, value)
-    if kind == "site":
-        return scoped if scoped in context.names.get("site", ()) else value
-    return value
+def _kind(element: Element, attribute: str) -> str | None:
+    """The kind of part that an attribute of an element names."""
+    if attribute in _BY_TYPE:
+        return (element.get(_BY_TYPE[attribute]) or "").removeprefix("x")
+    return _ONES.get(attribute)

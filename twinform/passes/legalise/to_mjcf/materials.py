@@ -5,7 +5,7 @@ from pathlib import PurePosixPath
 from twinform.diagnostics import Location, rules
 from twinform.ir import Material, Visual
 from twinform.passes.legalise.to_mjcf.assets import file_path
-from twinform.passes.legalise.to_mjcf.elements import Value, make_element
+from twinform.passes.legalise.to_mjcf.elements import Value, attribute_text, make_element
 from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements
 from twinform.passes.legalise.to_mjcf.looks import MAPS, Look, emission, is_plain, look
 from twinform.passes.legalise.to_mjcf.said_parts import without_elements
@@ -18,13 +18,29 @@ _IMAGES = frozenset({".png", ".ktx"})
 def look_of(context: MjcfContext, body: Body, visual: Visual) -> list[tuple[str, Value]]:
     """The attributes of the geom of a visual that say how it looks: `rgba`, or the name of a material in `asset`."""
     found = look(visual)
-    if any(each.name == "geom" and each.get("material") for each in kept_elements(visual)):
-        return [("rgba", found.rgba)]  # the material that it was read with is among the assets still
+    kept = next(
+        (name for each in kept_elements(visual) if each.name == "geom" and (name := each.get("material"))), None
+    )
+    if kept is not None:
+        return _of_kept_material(context, kept, found)
     textures = _textures(context, visual, found)
     context.leave(visual, unsaid_visual(visual))
     if not found.material and not textures:
         return [("rgba", found.rgba)]
     return [("material", _material(context, body, visual, found, textures))]
+
+
+def _of_kept_material(context: MjcfContext, name: str, found: Look) -> list[tuple[str, Value]]:
+    """The color of a geom that keeps the material which it was read with, where it has not that of the material.
+
+    The asset gets what visuals say of it; what else it had is added where models keep it.
+    """
+    key = ("kept material", name)
+    if key not in context.files:
+        context.names.setdefault("material", set()).add(name)
+        context.add("asset", make_element("material", [("name", name), ("rgba", found.rgba), *found.material]))
+        context.files[key] = attribute_text(found.rgba or ())
+    return [] if context.files[key] == attribute_text(found.rgba or ()) else [("rgba", found.rgba)]
 
 
 def _material(

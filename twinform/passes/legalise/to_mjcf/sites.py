@@ -3,9 +3,10 @@
 from twinform.ir import Element
 from twinform.ir.frames import WORLD
 from twinform.ir.transform import Transform
+from twinform.passes.legalise.changed_names import source_name
 from twinform.passes.legalise.to_mjcf.elements import Value, make_element, placement
 from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements, with_kept
-from twinform.passes.legalise.to_mjcf.writing_context import Body, MjcfContext, ScopedFrame
+from twinform.passes.legalise.to_mjcf.writing_context import Body, MjcfContext, ScopedFrame, scope_of
 
 HIDDEN = 4
 """The group of sites that stand for a frame or sensor: viewers of MuJoCo show the groups 0 to 2 unless told to."""
@@ -27,7 +28,9 @@ def _frame_site(context: MjcfContext, scoped: ScopedFrame, link: str | None) -> 
     if not any(each.name == "site" for each in kept_elements(frame)):
         shape = [("group", HIDDEN)]
     place = context.place(name, link, kind="frame")
-    return with_kept(make_element("site", [("name", name), *placement(place), *shape], source=frame.source), frame)
+    written = scope_of(name) + source_name(frame)
+    context.written_sites[name] = written
+    return with_kept(make_element("site", [("name", written), *placement(place), *shape], source=frame.source), frame)
 
 
 def sensor_site(name: str | None, place: Transform) -> Element:

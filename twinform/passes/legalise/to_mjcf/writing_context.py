@@ -12,13 +12,25 @@ from typing import NamedTuple
 
 from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, Fate, Location, Rule, rules
-from twinform.ir import Document, Element, Format, Frame, Link, Model, Node, Pose, World, replace_fields
+from twinform.ir import (
+    Document,
+    Element,
+    Format,
+    Frame,
+    Link,
+    Model,
+    Node,
+    Pose,
+    World,
+    census_of,
+    replace_fields,
+)
 from twinform.ir.frames import WORLD, Kind
 from twinform.ir.kinematic_tree import KinematicTree
 from twinform.ir.scopes import SCOPE, scoped_models
 from twinform.ir.transform import Transform
 from twinform.passes.carriers.annotations import came_from
-from twinform.passes.carriers.carriers import Keeper
+from twinform.passes.carriers.carriers import Keeper, bits_of_ours
 from twinform.passes.framework.assets import NO_ASSETS, Assets
 from twinform.passes.legalise.to_mjcf.contact_plan import ContactPlan
 from twinform.passes.legalise.to_mjcf.frictions import friction_priorities
@@ -64,6 +76,7 @@ class MjcfContext:
         numbers: how far the numbers behind a name have come, by kind and name.
         written_joints: for each joint, by its scoped name, the names of the MJCF joints that stand for it: none for one
             that is fixed.
+        written_sites: the names of the sites of frames, by the scoped names of these.
         written_geoms: for each visual or collision, by its identity, the name of its geom.
         left: nodes whose untyped elements MJCF says in part, by identity, each with what MJCF leaves of it.
         files: `asset` elements by what they are made of, so that equal ones are shared.
@@ -81,6 +94,7 @@ class MjcfContext:
     names: dict[str, set[str]] = field(default_factory=dict[str, set[str]])
     written_bodies: dict[str, str] = field(default_factory=dict[str, str])
     written_joints: dict[str, tuple[str, ...]] = field(default_factory=dict[str, tuple[str, ...]])
+    written_sites: dict[str, str] = field(default_factory=dict[str, str])
     written_geoms: dict[int, str] = field(default_factory=dict[int, str])
     left: dict[int, tuple[Node, Node]] = field(default_factory=dict[int, tuple[Node, Node]])
     files: dict[object, str | None] = field(default_factory=dict[object, str | None])
@@ -118,9 +132,15 @@ class MjcfContext:
     @cached_property
     def is_of_mjcf(self) -> bool:
         """Whether the document was read of MJCF, so that what SDF leaves to its defaults stays as MJCF has it."""
-        models = (self.holder,) if isinstance(self.holder, Model) else self.holder.models
         source = self.document.source
-        return (source is not None and source.step == "mujoco") or any(came_from(each, Format.MJCF) for each in models)
+        if (source is not None and source.step == "mujoco") or any(
+            came_from(each, Format.MJCF) for _, each in self.models
+        ):
+            return True
+        # What a pass added for MuJoCo stands in the model itself.
+        bits = bits_of_ours("mjcf")
+        parts = [part for each in models for part in (*each.links, *each.joints, *each.frames)]
+        return any(census_of(part) & bits for part in parts)
 
     @cached_property
     def contacts(self) -> ContactPlan:
