@@ -132,10 +132,8 @@ class MjcfContext:
     @cached_property
     def is_of_mjcf(self) -> bool:
         """Whether the document was read of MJCF, so that what SDF leaves to its defaults stays as MJCF has it."""
-        source = self.document.source
-        if (source is not None and source.step == "mujoco") or any(
-            came_from(each, Format.MJCF) for _, each in self.models
-        ):
+        source, models = self.document.source, [each for _, each in self.models]
+        if (source is not None and source.step == "mujoco") or any(came_from(each, Format.MJCF) for each in models):
             return True
         # What a pass added for MuJoCo stands in the model itself.
         bits = bits_of_ours("mjcf")
