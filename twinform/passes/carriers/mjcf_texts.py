@@ -5,7 +5,7 @@ programs that save MJCF write them as they are, and other readers of XML take a 
 """
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from hashlib import sha256
 from typing import Any, NamedTuple
 
@@ -39,6 +39,10 @@ PARTS = "parts"
 """The annotation on a sensor or light with the elements that it became, and a digest by which edits are seen."""
 TURN = "turn"
 """The annotation on a joint with the orientation of its frame in the link that it moves."""
+LOOK_OF = "look-of"
+"""The annotation on a visual with a digest of the color and material of its geom, by which edits are seen."""
+Tagged = tuple[str, Mapping[str, str]]
+"""The tag and the attributes of an element."""
 KINDS: Mapping[str, type[Node]] = {
     DOCUMENT: Document, "world": World, "model": Model, "link": Link, "joint": Joint, "frame": Frame, "light": Light,
 }  # fmt: skip
@@ -130,13 +134,21 @@ def read_node(data: str, kind: str, source: Source) -> Node:
     return maker(KINDS[kind])(values)
 
 
-def digest_of(elements: Iterable[tuple[str, Mapping[str, str]]]) -> str:
+def digest_of(elements: Iterable[Tagged]) -> str:
     """A digest of elements of MJCF, in any order and with numbers of five digits: MuJoCo saves six."""
     lines = sorted(
         " ".join([tag, *(f"{name}={_rounded(value)}" for name, value in sorted(attributes.items()))])
         for tag, attributes in elements
     )
     return sha256("\n".join(lines).encode()).hexdigest()[:16]
+
+
+def look_parts(geom: Mapping[str, str], find: Callable[[str, str], list[Tagged]]) -> list[Tagged]:
+    """The elements that say how a geom looks; `find` returns an asset with the elements in it."""
+    parts: list[Tagged] = [("geom", {name: geom[name] for name in ("rgba", "material") if name in geom})]
+    material = find("material", geom["material"]) if "material" in geom else []
+    textures = [attributes["texture"] for _, attributes in material if "texture" in attributes]
+    return [*parts, *material, *(each for name in textures for each in find("texture", name))]
 
 
 def _rounded(value: str) -> str:

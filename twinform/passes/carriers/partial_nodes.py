@@ -181,7 +181,10 @@ def _in_their_places(nodes: list[AnyNode]) -> tuple[AnyNode, ...]:
     for each, note in placed:
         if note is not None:
             index = note.get("index") or ""
-            found.insert(int(index) if index.isdecimal() else len(found), without_annotation(each, PLACE))
+            at = min(int(index), len(found)) if index.isdecimal() else len(found)
+            # Parts are written in the order of the file, so that it stands where its neighbor does.
+            beside = found[at] if at < len(found) else found[-1] if found else each
+            found.insert(at, without_annotation(each, PLACE).copy(source=beside.source))
     return tuple(found)
 
 

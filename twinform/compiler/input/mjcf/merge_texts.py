@@ -12,8 +12,8 @@ from twinform.compiler.input.mjcf.one_model import one_model
 from twinform.compiler.input.mjcf.renamed_parts import renamed_parts
 from twinform.compiler.input.mjcf.restore_contacts import note_contacts, settle_contacts
 from twinform.compiler.input.mjcf.restore_sensors import sensors_back, without_lights, without_parts_of_sensors
-from twinform.compiler.input.mjcf.spellings import with_spellings
-from twinform.compiler.input.mjcf.usual_remainders import without_usual
+from twinform.compiler.input.mjcf.spellings import Spellings
+from twinform.compiler.input.mjcf.usual_remainders import without_assets, without_usual
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document, Format, Frame, Joint, Link, Model, Node, Opaque, Pose, World, replace_fields
 from twinform.ir.element import Namespaces
@@ -65,7 +65,9 @@ class _Merged:
         self.texts = texts
         self.sink = sink
         self.parts = frozenset[tuple[str, str]]()
-        self.merging = Merging(with_spellings)
+        self.holds: tuple[Joint, ...] = ()
+        self.spellings = Spellings(root)
+        self.merging = Merging(self.spellings)
         self.links: list[Link] = [each for each in nodes_of(texts, "link") if isinstance(each, Link)]
         self.joints: list[Joint] = [each for each in nodes_of(texts, "joint") if isinstance(each, Joint)]
         self.frames: list[Frame] = [each for each in nodes_of(texts, "frame") if isinstance(each, Frame)]
@@ -82,6 +84,7 @@ class _Merged:
         model = without_parts_of_sensors(model, self.parts)
         model = join_joints(model, self.joints)
         model = self._attached(self._merged(self._with_loops(model)))
+        model = without_assets(without_usual(model), self.spellings.agreed)
         for stale in self.merging.stale:
             what = f"{type(stale).__name__.lower()} {getattr(stale, 'name', None) or ''}".strip()
             report_stale(self.sink, f"what a carrier holds of the {what} belongs to nothing in the file", stale.source)
@@ -174,19 +177,14 @@ class _Merged:
         """The model without joints that only say that it is fixed to the world, where something else says so."""
         carried = {each.name for each in self.joints if not is_synthesized(each)}
         is_robot = came_from(model, Format.URDF)
-        kept = tuple(
-            each
-            for each in model.joints
-            if not (
-                each.type == "fixed"
-                and each.parent == WORLD
-                and (
-                    (each.name in made and each.name not in carried and is_static)
-                    or (is_robot and is_synthesized(each))
-                )
-            )
-        )
-        return model.copy(joints=kept)
+
+        def is_needless(joint: Joint) -> bool:
+            if joint.type != "fixed" or joint.parent != WORLD:
+                return False
+            return (is_static and joint.name in made - carried) or (is_robot and is_synthesized(joint))
+
+        self.holds = tuple(each for each in model.joints if is_robot and is_needless(each))
+        return model.copy(joints=tuple(each for each in model.joints if not is_needless(each)))
 
     def _restored(self, model: Model) -> Model:
         """The model whose poses are written in their frames and notations, with models in it."""
@@ -210,12 +208,17 @@ class _Merged:
             holder = settle_contacts(alone)
             parts = {"models": holder.models, "lights": alone.lights}
         else:
-            holder = settle_contacts(model if self.world is None else self._as_world(model, self.world))
+            holder = self._settled(model) if self.world is None else settle_contacts(self._as_world(model, self.world))
             parts = {"models": (holder,)} if isinstance(holder, Model) else {"worlds": (holder,)}
         document = document.copy(**parts)
         if self.around is not None:
             document = self.merging.merge(document, without_annotation(self.around, FROM, PREFIXES, SEVERAL))
         return document.copy(namespaces=self._namespaces())
+
+    def _settled(self, model: Model) -> Model | World:
+        """The model with its contacts, which were computed while a robot was held by the world."""
+        held = settle_contacts(model.copy(joints=(*self.holds, *model.joints)))
+        return held.copy(joints=tuple(each for each in held.joints if each not in self.holds))
 
     def _namespaces(self) -> Namespaces:
         """The prefixes of the source, and ours."""

@@ -10,6 +10,7 @@ from typing import TypeVar, cast
 from twinform.ir import (
     Axis,
     Collision,
+    Element,
     Format,
     Geometry,
     Heightmap,
@@ -30,9 +31,10 @@ from twinform.ir.solids import tensor, turned
 from twinform.ir.transform import Transform, rounded
 from twinform.passes.carriers.absorb import CarrierError, absorb
 from twinform.passes.carriers.annotations import find_annotation, without_annotation
-from twinform.passes.carriers.mjcf_texts import AXES, SHAPE_OF, TURN
-from twinform.passes.legalise.to_mjcf.looks import Look, look
+from twinform.passes.carriers.mjcf_texts import AXES, LOOK_OF, SHAPE_OF, TURN, Tagged, digest_of, look_parts
+from twinform.passes.legalise.to_mjcf.kept_mjcf import KEPT
 from twinform.passes.shared.poses import read_vector
+from twinform.schemas import XmlElement
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 AnyShape = TypeVar("AnyShape", Visual, Collision)
@@ -47,39 +49,70 @@ _ALIKE: tuple[frozenset[JointType], ...] = (
 """Types of joints that are the same in MJCF."""
 
 
-def with_spellings(node: AnyNode, partial: AnyNode) -> tuple[AnyNode, AnyNode]:
-    """The node of a file and its partial node, of which the one gives way where both say the same."""
-    made: tuple[Node, Node] = (node, partial)
-    if isinstance(node, Visual) and isinstance(partial, Visual):
-        made = _with_look(*_with_shape(node, partial))
-    elif isinstance(node, Collision) and isinstance(partial, Collision):
-        made = _with_shape(node, partial)
-    elif isinstance(node, Joint) and isinstance(partial, Joint):
-        made = _with_turn(_with_type(node, partial), partial), without_annotation(partial, TURN)
-    elif isinstance(node, Mimic) and isinstance(partial, Mimic):
-        made = _with_reference(node, partial)
-    elif isinstance(node, Limit) and isinstance(partial, Limit):
-        made = _with_ends(node, partial), partial
-    elif isinstance(node, Inertial) and isinstance(partial, Inertial):
-        made = _with_axes(node, partial), without_annotation(partial, AXES)
-    return cast("tuple[AnyNode, AnyNode]", made)
+class Spellings:
+    """Decides for pairs of a node of a file and its partial node which of them gives way where both say the same.
+
+    Attributes:
+        agreed: the tags and names of the assets whose looks come back as they were.
+    """
+
+    def __init__(self, root: XmlElement) -> None:
+        self.agreed: set[tuple[str, str]] = set()
+        self._geoms = {each.get("name") or "": each for each in root.iter("geom")}
+        self._assets = {(str(each.tag), each.get("name")): each for each in root.iterfind("asset/*")}
+
+    def __call__(self, node: AnyNode, partial: AnyNode) -> tuple[AnyNode, AnyNode]:
+        """Return both nodes."""
+        made: tuple[Node, Node] = (node, partial)
+        if isinstance(node, Visual) and isinstance(partial, Visual):
+            made = self._with_look(*_with_shape(node, partial))
+        elif isinstance(node, Collision) and isinstance(partial, Collision):
+            made = _with_shape(node, partial)
+        elif isinstance(node, Joint) and isinstance(partial, Joint):
+            made = _with_turn(_with_type(node, partial), partial), without_annotation(partial, TURN)
+        elif isinstance(node, Mimic) and isinstance(partial, Mimic):
+            made = _with_reference(node, partial)
+        elif isinstance(node, Limit) and isinstance(partial, Limit):
+            made = _with_ends(node, partial), partial
+        elif isinstance(node, Inertial) and isinstance(partial, Inertial):
+            made = _with_axes(node, partial), without_annotation(partial, AXES)
+        return cast("tuple[AnyNode, AnyNode]", made)
+
+    def _with_look(self, node: Visual, partial: Visual) -> tuple[Visual, Visual]:
+        """The look of the source, if the file shows it as it was written."""
+        note = find_annotation(partial, LOOK_OF)
+        if note is None:
+            return node, partial
+        partial = without_annotation(partial, LOOK_OF)
+        geom = self._geoms.get(node.name or "")
+        parts = look_parts(_attributes(geom), self._asset) if geom is not None else []
+        if digest_of(parts) != note.get("digest"):
+            return node, partial.copy(material=None)
+        self.agreed.update((tag, attributes["name"]) for tag, attributes in parts if "name" in attributes)
+        return node.copy(material=None, opaque=_without_material(node.opaque)), partial
+
+    def _asset(self, tag: str, name: str) -> list[Tagged]:
+        found = self._assets.get((tag, name))
+        return [] if found is None else [(str(each.tag), _attributes(each)) for each in found.iter()]
 
 
-def _with_look(node: Visual, partial: Visual) -> tuple[Visual, Visual]:
-    """The look of the source, if the file shows the same."""
-    if partial.material is None:
-        return node, partial
-    candidate = node.copy(material=partial.material, opaque=(*partial.opaque, *node.opaque))
-    if _looks_alike(look(candidate), look(node)):
-        return node.copy(material=None), partial
-    return node, partial.copy(material=None)
+def _attributes(element: XmlElement) -> dict[str, str]:
+    return {str(name): str(value) for name, value in element.items()}
 
 
-def _looks_alike(one: Look, other: Look) -> bool:
-    colors = (one.rgba or (), other.rgba or ())
-    if len(colors[0]) != len(colors[1]) or not all(map(_is_close, *colors)):
-        return False
-    return len(one.images) == len(other.images)
+def _without_material(parts: tuple[Opaque, ...]) -> tuple[Opaque, ...]:
+    """Remainders of a geom without the name of its material."""
+    found: list[Opaque] = []
+    for part in parts:
+        if part.element is not None and part.element.name == KEPT:
+            children = tuple(map(_without_its_material, part.element.children))
+            part = part.copy(element=part.element.copy(children=children))  # noqa: PLW2901 - its new form
+        found.append(part)
+    return tuple(found)
+
+
+def _without_its_material(element: Element) -> Element:
+    return element.copy(attributes=tuple(pair for pair in element.attributes if pair[0] != "material"))
 
 
 def _with_shape(node: AnyShape, partial: AnyShape) -> tuple[AnyShape, AnyShape]:

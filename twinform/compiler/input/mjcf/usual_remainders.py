@@ -1,9 +1,9 @@
 """Attributes of MJCF that are in every file which is written here, and say nothing of a robot that comes back."""
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from typing import TypeVar
 
-from twinform.ir import Element, Node, Opaque, replace_fields, rewrite
+from twinform.ir import Element, Model, Node, Opaque, replace_fields, rewrite
 from twinform.passes.carriers.carriers import NAMESPACE, bits_of_ours
 
 AnyNode = TypeVar("AnyNode", bound=Node)
@@ -11,14 +11,14 @@ AnyNode = TypeVar("AnyNode", bound=Node)
 _KEPT = "mjcf"
 _NAME = f"{{{NAMESPACE}}}{_KEPT}"
 # The groups of visuals and collisions, and what keeps MuJoCo from giving them a mass.
-# The reference of a spring that has no stiffness means nothing, whatever it is.
+# The names of assets are made of those of files. The reference of a spring that has no stiffness means nothing.
 _USUAL: Mapping[str, Mapping[str, frozenset[str] | None]] = {
     "compiler": {
         "angle": frozenset({"radian"}),
         "autolimits": frozenset({"false"}),
         "inertiafromgeom": frozenset({"false"}),
     },
-    "geom": {"group": frozenset({"2", "3"}), "density": frozenset({"0"})},
+    "geom": {"group": frozenset({"2", "3"}), "density": frozenset({"0"}), "mesh": None, "hfield": None},
     "joint": {"springref": None},
     "site": {"group": frozenset({"4"})},
 }
@@ -27,6 +27,29 @@ _USUAL: Mapping[str, Mapping[str, frozenset[str] | None]] = {
 def without_usual(node: AnyNode) -> AnyNode:
     """The node, and all in it, without remainders that only hold what is written for every robot."""
     return rewrite(node, Node, _without_usual, having=bits_of_ours(_KEPT))
+
+
+def without_assets(model: Model, names: Collection[tuple[str, str]]) -> Model:
+    """The model without remainders of assets that are written again for what comes back."""
+    if not names:
+        return model
+
+    def left(part: Opaque) -> Opaque | None:
+        if part.element is None or not _is_kept(part):
+            return part
+        sections = tuple(
+            section.copy(children=tuple(each for each in section.children if _name_of(each) not in names))
+            if section.name == "asset"
+            else section
+            for section in part.element.children
+        )
+        return _left_of(part.copy(element=part.element.copy(children=sections)))
+
+    return replace_fields(model, opaque=tuple(made for part in model.opaque if (made := left(part)) is not None))
+
+
+def _name_of(element: Element) -> tuple[str, str]:
+    return element.name, element.get("name") or ""
 
 
 def _without_usual(node: Node) -> Node:

@@ -41,14 +41,17 @@ from twinform.passes.carriers.mjcf_texts import (
     ATTACHED,
     AXES,
     DOCUMENT,
+    LOOK_OF,
     LOOP,
     PARTS,
     PREFIXES,
     SEVERAL,
     SHAPE_OF,
     TURN,
+    Tagged,
     bare_xml,
     digest_of,
+    look_parts,
     text_element,
     text_name,
     xml_data,
@@ -216,14 +219,11 @@ class _Texts:
             case Document():
                 found += self._provenance(node)
             case Visual() | Collision():
-                found += self._shape_note(node)
-                found += self._place_note(node)
+                found += self._shape_notes(node)
             case Inertial() if node.inertia is not None and node.pose is not None:
                 found += _axes_note(node, node.pose)
-            case Light():
-                found.append(self._parts_note(node))
-            case Sensor() if id(node) in self.context.left:
-                found.append(self._parts_note(node))
+            case Light() | Sensor():
+                found += self._parts_note(node)
             case Joint() if node.name in self.closing:
                 return (*found, annotation(LOOP), *self._pose_notes(node))
             case Joint() if node.type != "fixed":
@@ -254,13 +254,27 @@ class _Texts:
         pose = self.graph.pose(frame.name, body, kind="frame", base="link").to_pose(body)
         return frame.copy(attached_to=body, pose=pose)
 
+    def _look_note(self, visual: Visual) -> list[Opaque]:
+        """The annotation of the elements that say how a visual looks, if they say it in another way than SDF."""
+        geom = self.geom_elements.get(self.geoms.get(self._key(visual), ""))
+        if geom is None or visual.material is None or said_by_mjcf(visual.material) is not None:
+            return []
+        digest = digest_of(look_parts(dict(geom.attributes), self._asset))
+        return [annotation(LOOK_OF, attributes={"digest": digest})]
+
+    def _asset(self, tag: str, name: str) -> list[Tagged]:
+        """An asset with the elements in it."""
+        assets = self.context.sections.get("asset", [])
+        found = next((each for each in assets if each.name == tag and each.get("name") == name), None)
+        return [] if found is None else [(each.name, dict(each.attributes)) for each in found.walk()]
+
     def _place_note(self, part: Shape) -> list[Opaque]:
         """The annotation of where a shape without a geom is among those of its link: in URDF only the place tells."""
         link = self.link
         if link is None or self._key(part) in self.geoms:
             return []
         shapes = link.visuals if isinstance(part, Visual) else link.collisions
-        place = next((index for index, each in enumerate(shapes) if each is part), None)
+        place = next((index for index, each in enumerate(shapes) if each.name == part.name), None)
         return [] if place is None else [annotation(PLACE, attributes={"index": str(place)})]
 
     def _turn(self, joint: Joint) -> list[Opaque]:
@@ -325,6 +339,10 @@ class _Texts:
             return ()
         return () if names == (node.name,) else names
 
+    def _shape_notes(self, part: Shape) -> list[Opaque]:
+        looks = self._look_note(part) if isinstance(part, Visual) else []
+        return [*self._shape_note(part), *self._place_note(part), *looks]
+
     def _shape_note(self, part: Shape) -> list[Opaque]:
         """The annotation of the file that stands for a shape, with the shape, or of the URI that a file had."""
         shape = part.geometry.shape if part.geometry else None
@@ -337,8 +355,10 @@ class _Texts:
         note = annotation(SHAPE_OF, attributes={"file": file})
         return [note.copy(element=note.element and note.element.copy(children=holder.children))]
 
-    def _parts_note(self, part: Sensor | Light) -> Opaque:
+    def _parts_note(self, part: Sensor | Light) -> list[Opaque]:
         """The annotation of the elements that a sensor or light has become."""
+        if isinstance(part, Sensor) and id(part) not in self.context.left:
+            return []
         readings = [each for each in self.context.sections.get("sensor", ()) if each.source is part.source]
         sites = {each.get("site") or each.get("objname") for each in readings}
         in_bodies = [
@@ -350,7 +370,7 @@ class _Texts:
         parts = [*readings, *in_bodies]
         names = "\n".join(f"{each.name} {each.get('name')}" for each in parts)
         digest = digest_of((each.name, dict(each.attributes)) for each in parts)
-        return annotation(PARTS, names, {"digest": digest})
+        return [annotation(PARTS, names, {"digest": digest})]
 
     @cached_property
     def _in_bodies(self) -> list[Element]:
