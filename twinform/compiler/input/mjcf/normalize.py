@@ -6,6 +6,7 @@ files are named from the folder of the main file, and each section stands once.
 """
 
 from twinform.compiler.input.load_options import LoadOptions
+from twinform.compiler.input.mjcf.attach_models import Attaching, main_file
 from twinform.compiler.input.mjcf.canonical_values import write_canonical_values
 from twinform.compiler.input.mjcf.check_bodies import check_bodies
 from twinform.compiler.input.mjcf.check_references import check_names, check_references
@@ -26,20 +27,28 @@ def normalize(root: XmlElement, context: Context, load_options: LoadOptions) -> 
     """
     copy, originals = numbered_copy(root)
     findings = ElementFindings(context, originals)
+    attaching = Attaching(load_options, prepare, (main_file(context.file),))
+    settings = prepare(copy, findings, attaching)
     if is_too_large(copy, findings, load_options.limits.tags):
         return None
-    settings = CompilerSettings.of(copy)
-    DefaultClasses.of(copy, findings).merge_into(copy)
-    for section in list(copy.iterchildren("default")):
-        copy.remove(section)
-    merge_sections(copy)
-    check_notations(copy, findings)
-    write_canonical_values(copy, settings, findings)
     expand_frames(copy, settings, findings)
     rewrite_compiler(copy)
     check_canonical(copy, findings)
     take_numbers_out(copy)
     return copy
+
+
+def prepare(root: XmlElement, findings: ElementFindings, attaching: Attaching) -> CompilerSettings:
+    """Make all canonical in a tree but its frames and replicates, and return the settings of its compiler."""
+    settings = CompilerSettings.of(root)
+    DefaultClasses.of(root, findings).merge_into(root)
+    for section in list(root.iterchildren("default")):
+        root.remove(section)
+    merge_sections(root)
+    check_notations(root, findings)
+    write_canonical_values(root, settings, findings)
+    attaching.attach_all(root, findings)
+    return settings
 
 
 def check_canonical(root: XmlElement, findings: ElementFindings) -> None:
