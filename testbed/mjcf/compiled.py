@@ -133,9 +133,10 @@ def compile_urdf(text: bytes, folder: str | None = None, *, absent_is_nothing: b
     Raises:
         UnreadableError: MuJoCo refuses it.
     """
-    settings = dict.fromkeys(("fusestatic", "discardvisual", "balanceinertia", "strippath"), "false")
+    off = ["fusestatic", "discardvisual", "balanceinertia", "strippath"]
     if absent_is_nothing:
-        settings["inertiafromgeom"] = "false"
+        off.append("inertiafromgeom")
+    settings = dict.fromkeys(off, "false")
     parser = etree.XMLParser(resolve_entities=False, no_network=True, remove_comments=True, remove_pis=True)
     try:
         robot = etree.fromstring(text, parser)
