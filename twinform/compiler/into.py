@@ -13,7 +13,7 @@ from twinform.compiler.conversion_error import CompileError
 from twinform.compiler.driver import run_conversion
 from twinform.compiler.in_place import Updated, updated
 from twinform.compiler.input.loading import LoadOptions, LoadResult, read
-from twinform.compiler.mjcf_remainder import without_kept, without_own_sites
+from twinform.compiler.mjcf_remainder import DropKept, without_own_sites
 from twinform.compiler.request import ConversionRequest
 from twinform.dataclass import dataclass
 from twinform.diagnostics import NOWHERE, DiagnosticSink, Location
@@ -66,6 +66,10 @@ class Follower:
         followed = read(str(into), load_options, name=str(into))
         request = replace(request, comments=False, sdf_version=_version(request, followed))
         source = read(str(edited), load_options.read_by(request.sdf_version), name=str(edited))
+        if request.to == "mjcf" and not source.is_mjcf:
+            # Whoever edits a URDF has not taken the actuators out of the MJCF by writing none, and
+            # those that travel in it may be older.
+            request = replace(request, passes=Pipeline((*request.passes, DropKept.unchecked())))
         return cls(request, source, followed, load_options, base)
 
     @cached_property
@@ -100,9 +104,10 @@ class Follower:
         back = replace(self.request, to=to, sdf_version=None, urdf_version=None, passes=Pipeline())
         if to == "sdf":
             back = replace(back, sdf_version=document.version, model=None)
-        # Whoever edits a URDF has not taken the actuators out of the MJCF by writing none.
-        text = run_conversion(back, self.into, self.load_options, name=self.into.path).text.encode()
-        return without_kept(text) if self._of_mjcf else text
+        # A file with carriers was made by a conversion, in which all of this file had its place; one
+        # without them has no place for what its format lacks, and has not taken that away.
+        back = replace(back, carriers=back.carriers or has_carriers(self.edited))
+        return run_conversion(back, self.into, self.load_options, name=self.into.path).text.encode()
 
     def updated(self) -> Updated:
         """Change in the file only what the edits change.
@@ -160,6 +165,16 @@ class Follower:
     def robot_name(self) -> str | None:
         """The name of the robot that is followed, if there is one at the root of its file."""
         return next((each.name for each in _document(self.edited).models), None)
+
+
+_CARRIERS = (b"urn:twinform:1", b'"twinform:')
+"""What stands in a file with carriers: our namespace in URDF and SDF, and names of texts in MJCF."""
+
+
+def has_carriers(loaded: LoadResult) -> bool:
+    """Whether a file has carriers, as conversions write them."""
+    content = loaded.content or b""
+    return any(mark in content for mark in _CARRIERS)
 
 
 def _is_own_frame(found: Difference, source: Side) -> bool:

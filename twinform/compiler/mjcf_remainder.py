@@ -8,10 +8,21 @@ anew: what is kept of a link, joint or shape goes to the one of the same name.
 from collections.abc import Iterable, Iterator, Mapping
 from typing import ClassVar, Self, TypeVar
 
-from lxml import etree
-
 from twinform.diagnostics import DiagnosticSink
-from twinform.ir import Collision, Document, Element, Frame, Joint, Link, Model, Node, Opaque, Visual, rewrite
+from twinform.ir import (
+    Collision,
+    Document,
+    Element,
+    Frame,
+    Joint,
+    Link,
+    Model,
+    Node,
+    Opaque,
+    Visual,
+    replace_fields,
+    rewrite,
+)
 from twinform.ir.transform import Transform
 from twinform.passes.framework.pass_base import Pass
 from twinform.passes.legalise.to_mjcf.elements import make_element, placement
@@ -21,11 +32,25 @@ Part = TypeVar("Part", Link, Joint, Frame, Visual, Collision, Model)
 _SITE = "site"
 
 
-def without_kept(text: bytes) -> bytes:
-    """Return a text of URDF or SDF without the elements that keep what only MJCF says."""
-    root = etree.fromstring(text)
-    etree.strip_elements(root, KEPT, with_tail=False)
-    return etree.tostring(root, encoding="utf-8")
+class DropKept(Pass):
+    """Leave out what only MJCF says, which another file says better.
+
+    Changes: elements that keep MJCF are gone from all nodes.
+    Never touches: anything else.
+    Diagnostics: none.
+    """
+
+    name: ClassVar[str] = "drop-kept"
+
+    def run(self, document: Document, sink: DiagnosticSink) -> Document:
+        """Return the document without what is kept of MJCF."""
+        del sink
+        return rewrite(document, Node, _without_kept)
+
+
+def _without_kept(node: Node) -> Node:
+    parts = tuple(each for each in node.opaque if each.element is None or each.element.name != KEPT)
+    return replace_fields(node, opaque=parts) if len(parts) < len(node.opaque) else node
 
 
 def without_own_sites(before: Document, after: Document) -> Document:

@@ -14,7 +14,7 @@ from twinform.compiler.conversion_error import CompileError
 from twinform.compiler.driver import run_conversion
 from twinform.compiler.in_place import TextChange
 from twinform.compiler.input.loading import LoadOptions, LoadResult
-from twinform.compiler.into import Follower
+from twinform.compiler.into import Follower, has_carriers
 from twinform.compiler.mjcf_remainder import AdoptKept
 from twinform.compiler.request import ConversionRequest
 from twinform.dataclass import dataclass
@@ -111,14 +111,10 @@ def sync_file(
     return _followed(found, follower, options) if comparison.counted and options.make else found
 
 
-_CARRIERS = (b"urn:twinform:1", b'"twinform:')
-"""What stands in a file with carriers: our namespace in URDF and SDF, and names of texts in MJCF."""
-
-
 def _fitted(follower: Follower, options: SyncOptions) -> Follower:
     """Fit what is asked for to the file: to the model in it that has the name of the robot, and to its carriers."""
-    request, content = follower.request, follower.into.content or b""
-    if options.carriers_as_found and not any(mark in content for mark in _CARRIERS):
+    request = follower.request
+    if options.carriers_as_found and not has_carriers(follower.into):
         request = replace(request, carriers=False)
     if request.model is None and follower.has_several:
         request = replace(request, model=follower.robot_name)

@@ -8,7 +8,6 @@ from lxml import etree
 from twinform.compiler import ConversionRequest, LoadOptions
 from twinform.compiler.in_place import Updated
 from twinform.compiler.into import Follower
-from twinform.compiler.mjcf_remainder import without_kept
 from twinform.compiler.syncing import SyncedFile, SyncOptions, sync_file
 
 _CASE = Path(__file__).parents[2] / "cases/sync/outdated_mjcf_keeps_its_own_parts"
@@ -49,7 +48,13 @@ def test_a_part_that_is_gone_leaves_nothing_behind(tmp_path: Path, monkeypatch: 
     assert root.find(".//site") is None
 
 
-def test_elements_that_keep_mjcf_are_taken_out_of_a_text() -> None:
-    text = b'<robot xmlns:tf="urn:twinform:1" name="r"><link name="a"><tf:mjcf><body/></tf:mjcf></link></robot>'
-    assert b"mjcf" not in without_kept(text)
-    assert b'<link name="a"/>' in without_kept(text)
+def test_what_travels_in_the_source_is_older_than_what_the_file_says(tmp_path: Path) -> None:
+    """The URDF was made of an MJCF whose servo has other gains now."""
+    target, source = tmp_path / "file.xml", tmp_path / "source.urdf"
+    target.write_text((_CASE / "file.xml").read_text())
+    made = sync_file(ConversionRequest(to="urdf"), target, source, LoadOptions(), SyncOptions())
+    assert b"tf:mjcf" in (made.data or b"")
+    source.write_bytes((made.data or b"").replace(b'mass value="2"', b'mass value="4"'))
+    target.write_text(target.read_text().replace('kp="20"', 'kp="30"'))
+    made = sync_file(ConversionRequest(to="mjcf"), source, target, LoadOptions(), SyncOptions())
+    assert [change.new for change in made.changes] == ["4"]
