@@ -11,7 +11,7 @@ from twinform.diagnostics import rules
 from twinform.ir import Element
 from twinform.ir.frames import WORLD
 from twinform.ir.kinematic_tree import JointBetween
-from twinform.passes.carriers.annotations import is_synthesized
+from twinform.passes.carriers.annotations import MADE_NAME, find_annotation, is_synthesized
 from twinform.passes.carriers.joint_chains import part_of
 from twinform.passes.legalise.changed_names import source_name
 from twinform.passes.legalise.to_mjcf.elements import make_element, placement
@@ -54,6 +54,7 @@ class _BodyTree:
         self.tree = context.tree
         self.folded = {name for name in self.tree.links if self._is_in_chain(name)}
         self.holds: dict[str, Hold] = {}
+        self.world = _world_link(context)
         self.children: dict[str | None, list[str]] = {None: []}
         for name in self._in_order():
             hold = self.holds[name] = self._hold(name)
@@ -74,12 +75,16 @@ class _BodyTree:
             self.context.sink.report(rules.NESTED_TOO_DEEPLY, message, where, found=str(deepest), help=help_)
             return []
         parts = {name: self._parts(bodies[name], self.holds[name]) for name in self.holds}
-        made: dict[str, Element] = {}
+        made: dict[str, list[Element]] = {}
         for name in reversed(self.holds):
-            inner = [made.pop(child) for child in self.children.get(name, ())]
-            made[name] = self._element(bodies[name], self.holds[name], [*parts.pop(name), *inner])
+            inner = [each for child in self.children.get(name, ()) for each in made.pop(child)]
+            content = [*parts.pop(name), *inner]
+            if name == self.world:
+                made[name] = [each for each in content if each.name != "inertial"]
+            else:
+                made[name] = [self._element(bodies[name], self.holds[name], content)]
         self._report_weightless(bodies)
-        return [made[name] for name in self.children[None]]
+        return [each for name in self.children[None] for each in made[name]]
 
     def _in_order(self) -> Iterator[str]:
         """Yield the links that become bodies, parents first."""
@@ -110,7 +115,8 @@ class _BodyTree:
 
     def _body(self, name: str, hold: Hold, above: dict[str, Body]) -> Body:
         link = self.tree.links[name]
-        written = self.context.name("body", scope_of(name) + source_name(link), link.location) or name
+        wanted = scope_of(name) + source_name(link)
+        written = WORLD if name == self.world else self.context.name("body", wanted, link.location) or name
         self.context.written_bodies[name] = written
         moves = name not in self.context.static_links and (
             not hold.joints
@@ -154,3 +160,12 @@ class _BodyTree:
         weightless = [("gravcomp", "1")] if body.link.gravity is False else []
         element = make_element("body", [("name", body.written), *placed, *weightless], children, body.link.source)
         return with_kept(element, body.link)
+
+
+def _world_link(context: MjcfContext) -> str | None:
+    """The link whose shapes are those of the world itself: of a static model without a name in MJCF."""
+    for scope, model in context.models:
+        if model.static and find_annotation(model, MADE_NAME) is not None and len(model.links) == 1 and not model.pose:
+            link = model.links[0]
+            return scope + link.name if link.name == model.name and not link.pose else None
+    return None

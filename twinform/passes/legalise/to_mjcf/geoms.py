@@ -66,7 +66,7 @@ def geom_elements(context: MjcfContext, body: Body) -> list[Element]:
             more = [*touch_of(context, body, collision), *_group(context, collision, _TOUCHED)]
             if twin is not None and (twin.geometry, twin.pose) == (collision.geometry, collision.pose):
                 done.add(id(twin))
-                more += look_of(context, body, twin)
+                more += look_of(context, body, twin, collision)
             found.append(_geom(context, body, collision, shape, more))
             if twin is not None and id(twin) in done and id(collision) in context.written_geoms:
                 context.written_geoms[id(twin)] = context.written_geoms[id(collision)]

@@ -24,23 +24,27 @@ _BY_TYPE: Mapping[str, str] = {"objname": "objtype", "refname": "reftype"}
 
 
 class _Names:
-    """The names that parts have in MJCF by their kinds and scoped names, and by their own where only one has it."""
+    """The names that parts have in MJCF, by their kinds and scoped names, and by their own where only one has it.
+
+    What is kept has the names of the file that it was read from, of which SDF could not have some.
+    """
 
     def __init__(self, context: MjcfContext) -> None:
         # of several joints that stand for one, the last has its name
         joints = {name: written[-1] for name, written in context.written_joints.items() if written}
         kinds = {"joint": joints, "body": context.written_bodies, "site": context.written_sites}
-        self._scoped: Mapping[str, Mapping[str, str]] = kinds
+        self._scoped: dict[tuple[str, str], str] = {}
         self._alone: dict[tuple[str, str], str | None] = {}
         for kind, names in kinds.items():
             for name, written in names.items():
-                key = (kind, name.rpartition(SCOPE)[2])
+                self._scoped[kind, name] = written
+                self._scoped[kind, written] = written
+                key = (kind, written.rpartition(SCOPE)[2])
                 self._alone[key] = None if key in self._alone else written
 
     def of(self, kind: str, scope: str, name: str) -> str:
         """The name in MJCF of a part that is called so in a scope."""
-        known = self._scoped.get(kind, {})
-        return known.get(scope + name) or self._alone.get((kind, name)) or name
+        return self._scoped.get((kind, scope + name)) or self._alone.get((kind, name)) or name
 
 
 def add_kept_sections(context: MjcfContext) -> None:
@@ -54,6 +58,8 @@ def add_kept_sections(context: MjcfContext) -> None:
                 continue
             for part in kept.children:
                 _add(context, kept.name, _renamed(part, names, scope))
+    for scope, reading in context.kept_readings:
+        context.add("sensor", _renamed(reading, names, scope))
 
 
 def _add(context: MjcfContext, section: str, element: Element) -> None:

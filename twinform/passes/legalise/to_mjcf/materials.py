@@ -3,7 +3,7 @@
 from pathlib import PurePosixPath
 
 from twinform.diagnostics import Location, rules
-from twinform.ir import Material, Visual
+from twinform.ir import Collision, Material, Visual
 from twinform.passes.legalise.to_mjcf.assets import file_path
 from twinform.passes.legalise.to_mjcf.elements import Value, attribute_text, make_element
 from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements
@@ -15,11 +15,14 @@ _IMAGES = frozenset({".png", ".ktx"})
 """The images that MuJoCo reads."""
 
 
-def look_of(context: MjcfContext, body: Body, visual: Visual) -> list[tuple[str, Value]]:
-    """The attributes of the geom of a visual that say how it looks: `rgba`, or the name of a material in `asset`."""
+def look_of(context: MjcfContext, body: Body, visual: Visual, twin: Collision | None = None) -> list[tuple[str, Value]]:
+    """The attributes of the geom of a visual that say how it looks: `rgba`, or the name of a material in `asset`.
+
+    `twin` is the collision that is the same geom, and keeps what it was read with.
+    """
     found = look(visual)
     kept = next(
-        (name for each in kept_elements(visual) if each.name == "geom" and (name := each.get("material"))), None
+        (name for each in kept_elements(twin or visual) if each.name == "geom" and (name := each.get("material"))), None
     )
     if kept is not None:
         return _of_kept_material(context, kept, found)

@@ -30,16 +30,15 @@ def body_sensors(context: MjcfContext, body: Body) -> list[Element]:
     """The sites and cameras of a body, for the sensors of its link."""
     found: list[Element] = []
     for sensor in body.link.sensors:
-        if not _add_kept(context, sensor):
+        if not _add_kept(context, sensor, body):
             found += _written(context, sensor, _link_sensor(context, sensor, body))
     return found
 
 
-def _add_kept(context: MjcfContext, sensor: Sensor) -> bool:
+def _add_kept(context: MjcfContext, sensor: Sensor, body: Body) -> bool:
     """Add the readings that a sensor keeps of the file of MJCF that it was read from, whose site is a frame now."""
     kept = [reading for each in kept_elements(sensor) if each.name == "sensor" for reading in each.children]
-    for each in kept:
-        context.add("sensor", each)
+    context.kept_readings += [(body.scope, each) for each in kept]
     return bool(kept)
 
 
@@ -47,7 +46,7 @@ def joint_sensors(context: MjcfContext, body: Body, held_by: JointBetween) -> li
     """The sites for sensors on a joint, in the body that it holds."""
     found: list[Element] = []
     for sensor in held_by.joint.sensors:
-        if not _add_kept(context, sensor) and sensor.type == "force_torque":
+        if not _add_kept(context, sensor, body) and sensor.type == "force_torque":
             site = _site_name(context, sensor, body)
             found += _written(context, sensor, wrench_parts(context, sensor, site, held_by, body))
     return found

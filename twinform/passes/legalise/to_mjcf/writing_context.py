@@ -79,6 +79,7 @@ class MjcfContext:
         written_sites: the names of the sites of frames, by the scoped names of these.
         written_geoms: for each visual or collision, by its identity, the name of its geom.
         left: nodes whose untyped elements MJCF says in part, by identity, each with what MJCF leaves of it.
+        kept_readings: the readings that sensors keep, each with the prefix of the names in it.
         files: `asset` elements by what they are made of, so that equal ones are shared.
         sections: what stands outside of `worldbody`, by the name of the section, in the order in which it was added.
     """
@@ -97,6 +98,7 @@ class MjcfContext:
     written_sites: dict[str, str] = field(default_factory=dict[str, str])
     written_geoms: dict[int, str] = field(default_factory=dict[int, str])
     left: dict[int, tuple[Node, Node]] = field(default_factory=dict[int, tuple[Node, Node]])
+    kept_readings: list[tuple[str, Element]] = field(default_factory=list[tuple[str, Element]])
     files: dict[object, str | None] = field(default_factory=dict[object, str | None])
     sections: dict[str, list[Element]] = field(default_factory=lambda: defaultdict(list))
 
