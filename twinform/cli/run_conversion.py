@@ -330,8 +330,8 @@ def run_into(source: InputSource, into: Path | None, base: Path | None, options:
     if isinstance(source.content, bytes):
         raise click.UsageError(f"{source.name} is no file that could have been made of {into}")
     target = known_target(InputSource(str(into), str(into)).format)
-    if target is None or target in {"json", "mjcf", source.format} or str(into).lower().endswith(XACRO):
-        raise click.UsageError(f"--into takes a file of the other format, URDF or SDF, which {into} is not")
+    if target is None or target in {"json", source.format} or str(into).lower().endswith(XACRO):
+        raise click.UsageError(f"--into takes a file of another format, URDF, SDF or MJCF, which {into} is not")
     request = options.request_for(ConversionJob(source, target, into))
     try:
         updated = convert_into(request, Path(source.name), into, options.load_options, base=base)

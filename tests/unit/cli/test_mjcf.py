@@ -53,7 +53,6 @@ def test_attributes_get_the_order_of_mjcf(run: Run, pendulum: Path) -> None:
     ("arguments", "complaint"),
     [
         (["convert", "pendulum.xml", "--in-place"], "is MJCF, which is written anew"),
-        (["convert", "good.urdf", "--into", "pendulum.xml"], "--into takes a file of the other format"),
         (["fix", "pendulum.xml", "--passes", "fill-inertia"], "is not URDF or SDF"),
         (["convert", "pendulum.xml", "--split", "--to", "mjcf", "-o", "out"], "--split makes a file of every model"),
         (["batch", "convert", ".", "out", "--to", "mjcf", "--split"], "--split makes a file of every model"),
@@ -93,3 +92,16 @@ def test_mujoco_reads_it_and_others_do_not(run: Run, pendulum: Path) -> None:
 def test_its_format_is_called_by_its_name(run: Run, pendulum: Path) -> None:
     assert run("stats", pendulum).stdout.startswith(f"{pendulum}: mjcf\n")
     assert run("advise", pendulum).stdout.startswith(f"{pendulum}: MJCF, 'pendulum'\n")
+
+
+def test_it_follows_a_urdf_by_the_smallest_change_and_is_followed(run: Run, tmp_path: Path) -> None:
+    urdf, mjcf = tmp_path / "good.urdf", tmp_path / "good.xml"
+    urdf.write_text(GOOD)
+    assert run("convert", urdf, "--to", "mjcf", "-o", mjcf).exit_code == 0
+    before = mjcf.read_text()
+    urdf.write_text(GOOD.replace('mass value="1"', 'mass value="2"'))
+    assert run("convert", urdf, "--into", mjcf).exit_code == 0
+    assert mjcf.read_text() == before.replace('mass="1"', 'mass="2"')
+    mjcf.write_text(before.replace('mass="1"', 'mass="3"'))
+    assert run("convert", mjcf, "--into", urdf).exit_code == 0
+    assert urdf.read_text() == GOOD.replace('mass value="1"', 'mass value="3"')

@@ -182,7 +182,7 @@ def test_a_file_that_somebody_changes_meanwhile_is_not_written(
     ("command", "complaint"),
     [
         ("r.sdf --into other.sdf", "other.sdf is no file"),
-        ("r.sdf --into r.sdf", "takes a file of the other format"),
+        ("r.sdf --into r.sdf", "takes a file of another format"),
         ("r.sdf --base r.sdf", "--base is for --into"),
         ("r.sdf --into r.urdf --base none.sdf", "none.sdf is no file"),
         ("r.sdf --into r.urdf -o x.urdf", "leave -o, --in-place, --to, --passes and --depfile out"),
