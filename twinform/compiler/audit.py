@@ -20,6 +20,7 @@ from twinform.lazy import lazy_pattern
 from twinform.passes.carriers.annotations import MIMIC, SYNTHESIZED
 from twinform.passes.carriers.carriers import NAMESPACE
 from twinform.passes.carriers.joint_chains import CHAIN, PART
+from twinform.passes.carriers.mjcf_texts import parse_data, parse_text_name
 from twinform.passes.carriers.token_mass import TOKEN_MASS
 from twinform.passes.legalise.changed_names import NAME, SCOPED_NAME
 from twinform.passes.legalise.to_sdf.root_masses import UNSAID
@@ -42,6 +43,14 @@ _IMPLIED_BY = {"frame": "fixed"}
 _OPPOSITES = {"turnGravityOff": {"0.0": "1.0", "1.0": "0.0"}}
 _SYNONYMS = {"revolute": "continuous", "continuous": "revolute", "ball": "spherical"}
 """Words for which the other format may have another one: a continuous joint may be a revolute one without limits."""
+_OF_MJCF = {
+    ("joint", "hinge"): ("revolute", "continuous", "universal", "revolute2", "screw"),
+    ("joint", "slide"): ("prismatic",),
+    ("joint", "ball"): ("ball", "spherical"),
+    ("worldbody", ""): ("world", "fixed"),
+}
+"""Words that an element of MJCF stands for, by its name and type: a body in a body is fixed to it."""
+_WITH_HALF_SIZES = frozenset({"geom", "hfield"})
 _TRUTHS = {"true": "1.0", "yes": "1.0", "false": "0.0", "no": "0.0"}
 _PREDICATE = lazy_pattern(r"\[[^]]*+\]?|\{[^}]*+\}?|(?<=[/@])[\w.-]+:")
 _Place = tuple[int, str]
@@ -193,7 +202,11 @@ def _words_of(result: XmlElement) -> tuple[frozenset[str], frozenset[str]]:
     stack = [(result, outside)]
     while stack:
         element, words = stack.pop()
+        if (carried := _carried_in_mjcf(element)) is not None:
+            stack.append((carried, inside))
+            continue
         words = inside if str(element.tag).startswith(_OURS) else words
+        words.update(_implied_in_mjcf(element))
         written = frozenset(_words(element.text or ""))
         opposites = _OPPOSITES.get(_local(str(element.tag)), {})
         words.update(written, (opposites[word] for word in written if word in opposites))
@@ -203,6 +216,20 @@ def _words_of(result: XmlElement) -> tuple[frozenset[str], frozenset[str]]:
             (inside if str(name).startswith(_OURS) else words).update(_words(str(value)))
         stack += [(child, words) for child in element if isinstance(child.tag, str)]
     return frozenset(inside), frozenset(outside)
+
+
+def _carried_in_mjcf(element: XmlElement) -> XmlElement | None:
+    """Return what a carrier of MJCF holds, a text with XML in it; None for all other elements."""
+    if element.tag != "text" or parse_text_name(element.get("name", "")) is None:
+        return None
+    return parse_data(element.get("data", ""))
+
+
+def _implied_in_mjcf(element: XmlElement) -> Iterator[str]:
+    """Yield the words of SDF and URDF that an element of MJCF implies: types of joints, and whole for half sizes."""
+    yield from _OF_MJCF.get((str(element.tag), element.get("type", "")), ())
+    if element.tag in _WITH_HALF_SIZES:
+        yield from (repr(2 * float(number)) for number in element.get("size", "").split())
 
 
 def _words(text: str) -> Iterable[str]:
