@@ -13,7 +13,7 @@ from twinform.compiler.conversion_error import CompileError
 from twinform.compiler.driver import run_conversion
 from twinform.compiler.in_place import Updated, updated
 from twinform.compiler.input.loading import LoadOptions, LoadResult, read
-from twinform.compiler.mjcf_remainder import DropKept, without_own_sites
+from twinform.compiler.mjcf_remainder import DropKept, in_degrees, is_in_degrees, without_own_sites
 from twinform.compiler.request import ConversionRequest
 from twinform.dataclass import dataclass
 from twinform.diagnostics import NOWHERE, DiagnosticSink, Location
@@ -116,10 +116,12 @@ class Follower:
             CompileError: one of the files cannot be converted, or both sides have changed the same.
         """
         sink = DiagnosticSink(self.into.path, self.load_options.strict)
-        before = self.before.document
+        before, after = self.before.document, self.conversion
         if self._of_mjcf:
-            before = without_own_sites(before, self.conversion.document)
-        made = updated(self.into, before, self.conversion, sink, same=self.base is None)
+            before = without_own_sites(before, after.document)
+            if self.into.tree is not None and is_in_degrees(self.into.tree):
+                before, after = in_degrees(before), replace(after, document=in_degrees(after.document))
+        made = updated(self.into, before, after, sink, same=self.base is None)
         # A merge pairs parts by names, content and likeness, and a wrong pair would write a wrong robot
         # silently. So the file as it would be is compared with the edited one. It costs two
         # comparisons.

@@ -6,6 +6,7 @@ anew: what is kept of a link, joint or shape goes to the one of the same name.
 """
 
 from collections.abc import Iterable, Iterator, Mapping
+from math import degrees
 from typing import ClassVar, Self, TypeVar
 
 from twinform.diagnostics import DiagnosticSink
@@ -24,9 +25,12 @@ from twinform.ir import (
     rewrite,
 )
 from twinform.ir.transform import Transform
+from twinform.passes.carriers.annotations import MADE_NAME, find_annotation
 from twinform.passes.framework.pass_base import Pass
+from twinform.passes.legalise.changed_names import NAME
 from twinform.passes.legalise.to_mjcf.elements import make_element, placement
 from twinform.passes.legalise.to_mjcf.kept_mjcf import KEPT, with_kept
+from twinform.schemas import XmlElement, format_value
 
 Part = TypeVar("Part", Link, Joint, Frame, Visual, Collision, Model)
 _SITE = "site"
@@ -67,6 +71,34 @@ def _sites(element: Element | None) -> Iterator[Element]:
 def _without_sites(element: Element, names: Iterable[str | None]) -> Element:
     children = (each for each in element.children if each.name != _SITE or each.get("name") in names)
     return element.copy(children=tuple(_without_sites(each, names) for each in children))
+
+
+def is_in_degrees(root: XmlElement) -> bool:
+    """Whether the angles of joints in a file of MJCF are degrees, which they are unless it says otherwise."""
+    said = [each.get("angle") for each in root.iter("compiler") if each.get("angle")]
+    return not said or said[-1] == "degree"
+
+
+_ANGLES = frozenset({"range", "ref", "springref"})
+"""The attributes of joints that are angles, unless the joint slides."""
+
+
+def in_degrees(document: Document) -> Document:
+    """Return a document of MJCF in radians with the angles of joints in degrees, as a file has them that follows it."""
+    parts = (each.copy(element=_in_degrees(each.element)) if each.element else each for each in document.opaque)
+    return document.copy(opaque=tuple(parts))
+
+
+def _in_degrees(element: Element) -> Element:
+    attributes = element.attributes
+    if element.name == "joint" and element.get("type") != "slide":
+        attributes = tuple((key, _degrees(text) if key in _ANGLES else text) for key, text in attributes)
+    return element.copy(attributes=attributes, children=tuple(map(_in_degrees, element.children)))
+
+
+def _degrees(text: str) -> str:
+    """Write numbers in degrees, without the noise of the multiplication."""
+    return format_value(tuple(float(f"{degrees(float(each)):.13g}") for each in text.split()))
 
 
 class AdoptKept(Pass):
@@ -120,8 +152,16 @@ def _is_in_link(frame: Frame, link: Link) -> bool:
 
 
 def _site(frame: Frame) -> Element:
-    site = make_element(_SITE, [("name", frame.name), *placement(Transform.from_pose(frame.pose))])
+    site = make_element(_SITE, [("name", _name_in_mjcf(frame)), *placement(Transform.from_pose(frame.pose))])
     return with_kept(site, frame)
+
+
+def _name_in_mjcf(frame: Frame) -> str | None:
+    """Return the name of a site, which may also be that of a body, or None where the site has none."""
+    if find_annotation(frame, MADE_NAME) is not None:
+        return None
+    other = find_annotation(frame, NAME)
+    return frame.name if other is None else other.text
 
 
 def _adopt_in_link(link: Link, before: Mapping[str, Link]) -> Link:

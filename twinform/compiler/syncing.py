@@ -156,7 +156,9 @@ def _followed(found: SyncedFile, follower: Follower, options: SyncOptions) -> Sy
     Raises:
         CompileError: the smallest change cannot be made, and the file may not be written anew.
     """
-    anew = options.rewrite or found.format in _ANEW
+    # What stands around the robot in a file with a world would be lost.
+    alone = found.format in _ANEW and bool(follower.into.document and follower.into.document.models)
+    anew = options.rewrite or alone
     try:
         made = follower.updated()
         if not made.changes:
