@@ -1,4 +1,4 @@
-"""The robot model compiler between URDF and SDF: strict, lossless, both ways.
+"""The robot model compiler between URDF, SDF and MJCF: strict, lossless, all ways.
 
     import twinform
 

@@ -140,4 +140,4 @@ def _print_cmake_folder(ctx: click.Context, _parameter: click.Parameter, value: 
     help="Print the folder of the CMake package, for twinform_DIR, and exit.",
 )
 def main() -> None:
-    """Compile robot models between URDF and SDF: strict, lossless, both ways."""
+    """Compile robot models between URDF, SDF and MJCF: strict, lossless, all ways."""
