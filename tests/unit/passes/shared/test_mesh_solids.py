@@ -2,6 +2,7 @@
 
 import importlib
 import math
+import struct
 from pathlib import Path
 from typing import Any
 
@@ -18,7 +19,8 @@ from twinform.passes.mesh_jobs.job import MeshJob, MeshResult
 from twinform.passes.shared.mesh_solids import MeshError, Meshes
 
 trimesh: Any = importlib.import_module("trimesh")
-FORMATS = ("stl", "obj", "dae", "ply", "off", "glb")
+_EXPORTED = ("stl", "obj", "dae", "ply", "off", "glb")
+FORMATS = (*_EXPORTED, "msh")
 
 
 class Folder:
@@ -43,8 +45,12 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Boxes of 1 x 2 x 3 m in every format, and meshes without an inside."""
     folder = tmp_path_factory.mktemp("meshes")
     box = trimesh.creation.box((1, 2, 3))
-    for kind in FORMATS:
+    for kind in _EXPORTED:
         box.export(folder / f"box.{kind}")
+    counts = struct.pack("<4i", len(box.vertices), 0, 0, len(box.faces))
+    (folder / "box.msh").write_bytes(counts + box.vertices.astype("<f4").tobytes() + box.faces.astype("<i4").tobytes())
+    (folder / "short.msh").write_bytes(counts)
+    (folder / "wrong.msh").write_bytes(struct.pack("<4i12f3i", 4, 0, 0, 1, *[0.0] * 12, 0, 1, 9))
     text = (folder / "box.dae").read_text()
     (folder / "centimeters.dae").write_text(text.replace("<up_axis>", '<unit name="cm" meter="0.01"/><up_axis>'))
     two = trimesh.Scene({"near": box, "far": box.copy().apply_translation((9, 0, 0))})
@@ -139,6 +145,8 @@ def test_a_submesh_is_a_part_and_may_be_centered(folder: Path) -> None:
         ("noise.dae", "unreadable-mesh", "noise.dae"),
         ("hostile.obj", "unreadable-mesh", "hostile.obj"),
         ("hostile.dae", "unreadable-mesh", "document type"),
+        ("short.msh", "unreadable-mesh", "its size is not that of"),
+        ("wrong.msh", "unreadable-mesh", "names a point"),
         ("part.step", "unreadable-mesh", "dae, glb, msh"),
         ("missing.stl", "unreadable-mesh", "missing.stl"),
     ],
