@@ -105,7 +105,7 @@ def _shape_of(context: MjcfContext, body: Body, part: AnyPart) -> Solid | None:
         # A mesh stands for a shape that MJCF lacks.
         replaced = context.replacer.replace(part, body.name)
         shape = replaced.geometry.shape if replaced.geometry and replaced.geometry.shape else written
-        found = _solid(context, body, shape)
+        found = _solid(context, body, shape, _grid(part))
     except NoMeshError as error:
         context.leave(part, part)
         message = f"{_called(part, body)} is a {written.kind}, which MJCF does not have"
@@ -133,7 +133,7 @@ def _solid(context: MjcfContext, body: Body, shape: Shape) -> Solid | str | None
         case Plane():
             if body.moves:
                 return "is a plane on a link that moves, and MuJoCo takes planes on fixed bodies alone"
-            return _plane(shape)
+            return _plane(shape, grid)
         case Heightmap():
             name = height_field(context, shape)
             at = Pose.unchecked(xyz=vector_in(shape, "pos", (0.0, 0.0, 0.0)))
@@ -159,10 +159,16 @@ def _size(shape: Box | Sphere | Ellipsoid | Cylinder | Capsule) -> tuple[float, 
             return found
 
 
-def _plane(shape: Plane) -> Solid:
+def _grid(part: Visual | Collision) -> float:
+    """The distance of the lines on a plane: that of the geom which it was read from, or the usual one."""
+    kept = next((size for each in kept_elements(part) if each.name == "geom" and (size := each.get("size"))), "")
+    return float(kept.split()[2]) if len(kept.split()) == 3 else _GRID  # noqa: PLR2004 - two half sizes and the grid
+
+
+def _plane(shape: Plane, grid: float) -> Solid:
     """A plane, which faces z in MJCF; what touches it has no end, and what is seen of it has the written size."""
     x, y = shape.size or (1.0, 1.0)
-    return Solid([("type", "plane"), ("size", (x / 2, y / 2, _GRID))], _turn_up_to(shape.normal or _UP))
+    return Solid([("type", "plane"), ("size", (x / 2, y / 2, grid))], _turn_up_to(shape.normal or _UP))
 
 
 def _turn_up_to(normal: Vector3) -> Transform:
