@@ -51,6 +51,11 @@ def test_a_robot_of_urdf_is_the_one_that_mujoco_reads(path: Path) -> None:
     assert differences(compile_urdf(text, absent_is_nothing=True), made) == []
 
 
+@pytest.mark.parametrize("name", ["refused_massless.urdf", "refused_inertia.sdf"])
+def test_what_mujoco_refuses_is_changed_where_that_is_asked_for(name: str) -> None:
+    compile_mjcf(twinform.convert(_CASES / "to_mjcf" / name, to="mjcf", profiles="mujoco").text)
+
+
 def test_a_mesh_is_where_mujoco_puts_that_of_the_urdf(tmp_path: Path) -> None:
     (tmp_path / "meshes").mkdir()
     (tmp_path / "meshes/part.obj").write_text(_OCTAHEDRON)
