@@ -240,7 +240,7 @@ class _Texts:
         """The annotation of the frame and the notation of a pose."""
         pose: Pose | None = getattr(node, "pose", None)
         attributes = pose_attributes(pose)
-        if self.is_back and not isinstance(node, Frame):  # in URDF these frames go without saying
+        if self.is_back and isinstance(node, Link | Joint):  # in URDF their frames go without saying
             attributes.pop("relative_to", None)
         return [annotation(POSE, attributes=attributes)] if attributes else []
 
