@@ -11,7 +11,12 @@ from twinform.compiler.input.mjcf.joined_joints import join_joints
 from twinform.compiler.input.mjcf.one_model import one_model
 from twinform.compiler.input.mjcf.renamed_parts import renamed_parts
 from twinform.compiler.input.mjcf.restore_contacts import note_contacts, settle_contacts
-from twinform.compiler.input.mjcf.restore_sensors import sensors_back, without_lights, without_parts_of_sensors
+from twinform.compiler.input.mjcf.restore_sensors import (
+    restored_settings,
+    sensors_back,
+    without_lights,
+    without_parts_of_sensors,
+)
 from twinform.compiler.input.mjcf.spellings import Spellings
 from twinform.compiler.input.mjcf.usual_remainders import without_assets, without_usual
 from twinform.diagnostics import DiagnosticSink
@@ -35,6 +40,7 @@ from twinform.passes.carriers.partial_nodes import REST, WRITTEN, Merging, is_re
 from twinform.passes.legalise.to_sdf.restore_frames import RestoreFrames
 from twinform.passes.legalise.to_sdf.restore_nested import NameScopes, RestoreNested
 from twinform.passes.sdf_versions import change_version
+from twinform.passes.shared.poses import POSE
 from twinform.schemas import DEFAULT_SDF_VERSION, XmlElement, versions_of
 
 AnyPart = TypeVar("AnyPart", Link, Joint, Frame)
@@ -231,8 +237,10 @@ class _Merged:
     def _as_world(self, model: Model, partial: World) -> World:
         lowered = self.lowered.worlds[0] if self.lowered.worlds else World.unchecked(name=partial.name)
         lowered = lowered.copy(lights=without_lights(lowered.lights, self.parts))
+        lowered, partial = restored_settings(lowered, partial, self.root)
         world = lowered.copy(models=model.models, joints=model.joints, frames=model.frames, name=partial.name)
-        return self.merging.merge(world, partial)
+        world = self.merging.merge(world, partial)
+        return world.copy(lights=tuple(without_annotation(each, POSE) for each in world.lights))
 
     def _in_version(self, document: Document) -> Document:
         """The document in the version of SDF that its source had."""

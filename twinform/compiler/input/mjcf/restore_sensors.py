@@ -1,4 +1,4 @@
-"""Sensors of SDF that became sites, cameras and readings of MJCF: they come back while these are as written."""
+"""Sensors, lights and settings of SDF that became other elements of MJCF: they come back while these are as written."""
 
 from collections.abc import Iterable
 from typing import NamedTuple, TypeVar
@@ -129,3 +129,22 @@ def _without(element: Element, names: frozenset[PartName]) -> Element:
     )
     kept = tuple(each for each in children if each.children or each.attributes)
     return element.copy(children=kept)
+
+
+_SETTINGS = frozenset({"magnetic_field", "physics", "wind"})
+"""The elements of a world that become attributes of `option`."""
+
+
+def restored_settings(world: World, partial: World, root: XmlElement) -> tuple[World, World]:
+    """The settings of the source, if the options of the file are as written; otherwise those of the file."""
+    note = find_annotation(partial, PARTS)
+    options = ((str(each.tag), {str(k): str(v) for k, v in each.items()}) for each in root.iterfind("option"))
+    agrees = note is not None and digest_of(options) == note.get("digest")
+    partial = without_annotation(partial, PARTS)
+    if agrees:
+        return world.copy(gravity=None, opaque=_without_settings(world.opaque)), partial
+    return world, partial.copy(gravity=None, opaque=_without_settings(partial.opaque))
+
+
+def _without_settings(parts: tuple[Opaque, ...]) -> tuple[Opaque, ...]:
+    return tuple(part for part in parts if part.element is None or part.element.name not in _SETTINGS)

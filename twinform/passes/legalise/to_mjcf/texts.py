@@ -164,20 +164,28 @@ class _Texts:
 
     def said(self, node: Node) -> frozenset[str] | Left | None:
         """The fields of a node that this file says, and what its writer left of it."""
-        found = self.context.left.get(id(node))
-        if found is None:
+        if isinstance(node, World):
+            return Left(self._without_parts(node), frozenset({EXISTENCE}))
+        left = self._left_of(node)
+        if left is None:
             return self._said(node)
-        left = found[1]
-        if isinstance(node, Light):
-            return Left(node, frozenset({EXISTENCE}))
-        if isinstance(left, World):
-            return Left(self._without_parts(left))
         if isinstance(left, Sensor):
             return Left(node, frozenset({EXISTENCE}))
-        if left is node:
+        if left == node:
             return None
         # A look that comes back is compared with the one that was written, and taken whole.
         return self._said(node) if isinstance(node, Visual) else Left(left, said_by_mjcf(left) or frozenset())
+
+    def _left_of(self, node: Node) -> Node | None:
+        """What the writer of a node has left of it; flattening makes other objects of some nodes."""
+        found = self.context.left.get(id(node))
+        if found is None and node.source is not None:
+            return self._left_by_source.get((type(node), id(node.source)))
+        return found[1] if found else None
+
+    @cached_property
+    def _left_by_source(self) -> dict[tuple[type[Node], int], Node]:
+        return {(type(node), id(node.source)): left for node, left in self.context.left.values() if node.source}
 
     def _said(self, node: Node) -> frozenset[str] | None:
         if isinstance(node, Light):
@@ -222,6 +230,8 @@ class _Texts:
                 found += self._shape_notes(node)
             case Inertial() if node.inertia is not None and node.pose is not None:
                 found += _axes_note(node, node.pose)
+            case World():
+                found.append(annotation(PARTS, attributes={"digest": self._option_digest()}))
             case Light() | Sensor():
                 found += self._parts_note(node)
             case Joint() if node.name in self.closing:
@@ -251,7 +261,7 @@ class _Texts:
         body = self.graph.body(frame.name, kind="frame")
         if not self.graph.knows(body) or body == MODEL:
             return frame
-        pose = self.graph.pose(frame.name, body, kind="frame", base="link").to_pose(body)
+        pose = self.graph.pose(frame.name, body, kind="frame", base="link").to_pose()
         return frame.copy(attached_to=body, pose=pose)
 
     def _look_note(self, visual: Visual) -> list[Opaque]:
@@ -291,6 +301,8 @@ class _Texts:
     def _attached(self, frame: Frame) -> list[Opaque]:
         """The annotation of what a frame is attached to, if that is not the link that its site is in."""
         body = self.graph.body(frame.name, kind="frame")
+        if isinstance(self.context.holder, World) and frame.attached_to is None:
+            return []
         return [] if frame.attached_to == body else [annotation(ATTACHED, attributes={"to": frame.attached_to or ""})]
 
     @cached_property
@@ -312,7 +324,7 @@ class _Texts:
         """The annotations of the version of SDF that the source had, and of the prefixes in it."""
         version = self.context.source_version or document.version
         prefixes = [{"prefix": prefix, "uri": uri} for prefix, uri in document.namespaces if uri != NAMESPACE]
-        is_alone = bool(document.worlds) or isinstance(self.context.holder, Model)
+        is_alone = bool(self.context.document.worlds) or isinstance(self.context.holder, Model)
         return [
             annotation(FROM, attributes={"format": Format.SDF.value, "version": version}),
             *([] if is_alone else [annotation(SEVERAL)]),
@@ -357,7 +369,7 @@ class _Texts:
 
     def _parts_note(self, part: Sensor | Light) -> list[Opaque]:
         """The annotation of the elements that a sensor or light has become."""
-        if isinstance(part, Sensor) and id(part) not in self.context.left:
+        if isinstance(part, Sensor) and self._left_of(part) is None:
             return []
         readings = [each for each in self.context.sections.get("sensor", ()) if each.source is part.source]
         sites = {each.get("site") or each.get("objname") for each in readings}
@@ -371,6 +383,10 @@ class _Texts:
         names = "\n".join(f"{each.name} {each.get('name')}" for each in parts)
         digest = digest_of((each.name, dict(each.attributes)) for each in parts)
         return [annotation(PARTS, names, {"digest": digest})]
+
+    def _option_digest(self) -> str:
+        options = self.context.sections.get("option", [])
+        return digest_of((each.name, dict(each.attributes)) for each in options)
 
     @cached_property
     def _in_bodies(self) -> list[Element]:
