@@ -124,7 +124,7 @@ def _called(part: Visual | Collision, body: Body) -> str:
     return f"{type(part).__name__.lower()} {part.name!r} of link {body.name!r}"
 
 
-def _solid(context: MjcfContext, body: Body, shape: Shape) -> Solid | str | None:
+def _solid(context: MjcfContext, body: Body, shape: Shape, grid: float) -> Solid | str | None:
     """The shape in MJCF; why it has none; or None where that was reported."""
     match shape:
         case Mesh():
@@ -162,7 +162,7 @@ def _size(shape: Box | Sphere | Ellipsoid | Cylinder | Capsule) -> tuple[float, 
 def _grid(part: Visual | Collision) -> float:
     """The distance of the lines on a plane: that of the geom which it was read from, or the usual one."""
     kept = next((size for each in kept_elements(part) if each.name == "geom" and (size := each.get("size"))), "")
-    return float(kept.split()[2]) if len(kept.split()) == 3 else _GRID  # noqa: PLR2004 - two half sizes and the grid
+    return float(kept.split()[2]) if len(kept.split()) == 3 else _GRID
 
 
 def _plane(shape: Plane, grid: float) -> Solid:
