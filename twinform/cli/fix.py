@@ -140,8 +140,12 @@ def _suits_others(
 
 
 def is_expanded(source: InputSource, load_options: LoadOptions) -> bool:
-    """Whether a file is one of xacro."""
-    if isinstance(source.content, bytes) or load_options.xacro is False:
+    """Whether a file is one of xacro, or of MJCF, which may include others."""
+    if isinstance(source.content, bytes):
+        return False
+    if source.format == "mjcf":
+        return True
+    if load_options.xacro is False:
         return False
     return bool(load_options.xacro) or source.name.lower().endswith(XACRO)
 

@@ -105,3 +105,10 @@ def test_it_follows_a_urdf_by_the_smallest_change_and_is_followed(run: Run, tmp_
     mjcf.write_text(before.replace('mass="1"', 'mass="3"'))
     assert run("convert", mjcf, "--into", urdf).exit_code == 0
     assert urdf.read_text() == GOOD.replace('mass value="1"', 'mass value="3"')
+
+
+def test_fixes_are_made_in_the_files_that_are_included(run: Run, pendulum: Path) -> None:
+    (pendulum.parent / "scene.xml").write_text('<mujoco><include file="pendulum.xml"/></mujoco>')
+    pendulum.write_text(PENDULUM.replace("axis", "axsi"))
+    assert run("check", "--fix", "--unsafe-fixes", pendulum.parent).exit_code == 0
+    assert pendulum.read_text() == PENDULUM
