@@ -32,6 +32,8 @@ SYNTHESIZED = "made"
 """The annotation on a link, joint or frame that was not in the source."""
 MADE_NAME = "made-name"
 """The annotation on a part without a name in MJCF: `<tf:made-name>NAME</tf:made-name>`, while it is still called so."""
+WORLDBODY = "worldbody"
+"""The made name of the static model, and of its link, with the shapes of MJCF that belong to no body."""
 SAME_GEOM = "same-geom"
 """The annotation on a visual that is one geom of MJCF with the collision of its name, if both have the same shape."""
 

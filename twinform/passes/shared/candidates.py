@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterator
 from twinform.dataclass import dataclass
 from twinform.ir import Document, Include, Model, World
 from twinform.ir.scopes import nested_includes
-from twinform.passes.carriers.annotations import MADE_NAME, find_annotation
+from twinform.passes.carriers.annotations import MADE_NAME, WORLDBODY, find_annotation
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,7 +37,9 @@ def candidates(document: Document) -> Iterator[ModelCandidate]:
 
 def _is_scenery(model: Model | Include) -> bool:
     """Whether a model has the shapes of MJCF that belong to no body: it is static, and its name was made."""
-    return isinstance(model, Model) and model.static is True and find_annotation(model, MADE_NAME) is not None
+    if not isinstance(model, Model) or not model.static or model.name != WORLDBODY:
+        return False
+    return find_annotation(model, MADE_NAME) is not None
 
 
 def _all_candidates(document: Document) -> Iterator[ModelCandidate]:

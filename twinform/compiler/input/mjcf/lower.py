@@ -28,15 +28,13 @@ from twinform.compiler.input.mjcf.sections import Owners, Sections
 from twinform.compiler.input.mjcf.settings import MassSettings
 from twinform.compiler.resolve_uris import LocalAssets
 from twinform.ir import Document, Element, Format, Frame, Light, Link, Model, Opaque, Sensor, World
-from twinform.passes.carriers.annotations import MADE_NAME, annotation, with_annotation
+from twinform.passes.carriers.annotations import MADE_NAME, WORLDBODY, annotation, with_annotation
 from twinform.passes.carriers.carriers import NAMESPACE, PREFIX
 from twinform.passes.legalise.changed_names import NAME
 from twinform.passes.shared.mesh_solids import Meshes
 from twinform.passes.shared.nodes import reserve_name
 from twinform.schemas import DEFAULT_SDF_VERSION, Context, XmlElement
 
-WORLDBODY = "worldbody"
-"""The name of the static model with the shapes of the world itself, and of its link."""
 _MODEL = "model"
 """The name of a model in a file that has none."""
 
