@@ -31,6 +31,7 @@ from twinform.passes.legalise.to_mjcf.contacts import touch_of
 from twinform.passes.legalise.to_mjcf.elements import Attributes, Value, make_element, placement
 from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements, with_kept
 from twinform.passes.legalise.to_mjcf.materials import look_of
+from twinform.passes.legalise.to_mjcf.said_parts import without_elements
 from twinform.passes.legalise.to_mjcf.writing_context import Body, MjcfContext
 from twinform.passes.mesh_jobs.mesh_files import NoMeshError
 
@@ -136,6 +137,7 @@ def _solid(context: MjcfContext, body: Body, shape: Shape, grid: float) -> Solid
             return _plane(shape, grid)
         case Heightmap():
             name = height_field(context, shape)
+            context.leave(shape, without_elements(shape, {"size", "pos"}))
             at = Pose.unchecked(xyz=vector_in(shape, "pos", (0.0, 0.0, 0.0)))
             return None if name is None else Solid([("type", "hfield"), ("hfield", name)], Transform.from_pose(at))
         case Box() | Sphere() | Ellipsoid() | Cylinder() | Capsule():
