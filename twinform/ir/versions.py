@@ -7,7 +7,7 @@ Version = tuple[int, int]
 _VERSIONS = {
     "urdf": ("1.0", "1.1", "1.2"),
     "sdf": ("1.2", "1.3", "1.4", "1.5", "1.6", "1.7", "1.8", "1.9", "1.10", "1.11", "1.12"),
-    "mjcf": ("4.0",),
+    "mjcf": ("3.3", "4.0"),
 }
 DEFAULT_SDF_VERSION = "1.11"
 """The version of Gazebo Harmonic, the newest long-term release, and the first that has `mimic`."""
