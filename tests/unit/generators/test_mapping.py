@@ -56,6 +56,6 @@ def test_pages_of_mjcf_say_what_each_row_is_and_means() -> None:
     made = pages("mjcf")
     assert [name for name in sections("mjcf") if f"{name}.md" not in made] == []
     assert "| `@range` | two numbers, default `0 0` |  | Its lower and its upper limit. |" in made["joint.md"]
-    assert "| `@orthographic` | bool | to 3.4 | Whether it has no perspective;" in made["camera.md"]
+    assert "| `@orthographic` | bool | 3.2 to 3.4 | Whether it has no perspective;" in made["camera.md"]
     assert "| `@target` | string, the name of a body |  | The body that it looks at. |" in made["camera.md"]
     assert "| [`body`](body.md) | any number |" in made["body.md"]
