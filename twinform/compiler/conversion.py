@@ -178,6 +178,10 @@ def _convert_document(
     """Run the passes on a document that was read, and write it."""
     kept = tuple(each for each in loaded.diagnostics if not each.is_error)
     sink = replace(loaded, diagnostics=kept).sink(strict=load_options.strict)
+    if not request.carriers and request.to != "mjcf":
+        from twinform.compiler.input.mjcf.without_remainders import without_remainders  # noqa: PLC0415 - few ask for it
+
+        document = without_remainders(document, sink)
     passes = _user_passes(request, load_options, loaded.path)
     # The document is verified between the user's passes. Legalisation leaves it half in one format
     # and half in the other, so there the check comes at the end.

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Literal
 
 import pytest
 from lxml import etree
@@ -202,3 +203,12 @@ def test_the_ledger_has_each_part_with_a_reason_and_its_place() -> None:
     assert sorted(paths) == ["@armature", "@solreflimit"]
     assert {each.location.line for each in kept_parts} == {3}
     assert all(": " in each.message and each.weight == 1 for each in kept_parts)
+
+
+@pytest.mark.parametrize("to", ["sdf", "urdf"])
+def test_without_carriers_nothing_of_ours_is_written_and_the_ledger_says_dropped(to: Literal["sdf", "urdf"]) -> None:
+    body = f'<body name="a"><joint armature="1"/>{_INERTIAL}<site name="s"/></body>'
+    made = twinform.convert(f"<mujoco><worldbody>{body}</worldbody></mujoco>".encode(), to=to, carriers=False)
+    assert "urn:twinform:1" not in made.text
+    assert Fate.CARRIED not in {each.fate for each in made.ledger.entries}
+    assert any(each.location.path.endswith("@armature") for each in made.ledger.entries if each.fate is Fate.DROPPED)
