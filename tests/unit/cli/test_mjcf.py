@@ -112,3 +112,10 @@ def test_fixes_are_made_in_the_files_that_are_included(run: Run, pendulum: Path)
     pendulum.write_text(PENDULUM.replace("axis", "axsi"))
     assert run("check", "--fix", "--unsafe-fixes", pendulum.parent).exit_code == 0
     assert pendulum.read_text() == PENDULUM
+
+
+def test_a_text_without_a_folder_has_no_includes(run: Run) -> None:
+    done = run("check", "-", text='<mujoco>\n<include file="arm.xml"/>\n</mujoco>')
+    assert done.exit_code == 1
+    assert "<stdin>:2" in done.stdout
+    assert "include-not-expanded" in done.stdout

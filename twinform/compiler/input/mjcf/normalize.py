@@ -17,6 +17,7 @@ from twinform.compiler.input.mjcf.default_classes import DefaultClasses
 from twinform.compiler.input.mjcf.element_findings import ElementFindings, numbered_copy, take_numbers_out
 from twinform.compiler.input.mjcf.expand_frames import expand_frames, is_too_large
 from twinform.compiler.input.mjcf.merge_sections import merge_sections
+from twinform.diagnostics.rules import INCLUDE_NOT_EXPANDED
 from twinform.schemas import Context, XmlElement
 
 
@@ -27,6 +28,9 @@ def normalize(root: XmlElement, context: Context, load_options: LoadOptions) -> 
     """
     copy, originals = numbered_copy(root)
     findings = ElementFindings(context, originals)
+    for include in copy.iter("include"):  # a text that is no file has no folder in which it could be
+        message = f"nothing is known of {include.get('file', '')!r}, since this text is no file that could be beside it"
+        findings.report(INCLUDE_NOT_EXPANDED, include, message)
     attaching = Attaching(load_options, prepare, (main_file(context.file),))
     settings = prepare(copy, findings, attaching)
     if is_too_large(copy, findings, load_options.limits.tags):
