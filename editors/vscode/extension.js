@@ -1,11 +1,11 @@
-// Starts `twinform lsp` for URDF, SDF and xacro files: all that the extension knows is in that server.
+// Starts `twinform lsp` for URDF, SDF, MJCF and xacro files: all that the extension knows is in that server.
 
 const { commands, extensions, Position, Uri, window, workspace } = require("vscode");
 const { LanguageClient } = require("vscode-languageclient/node");
 const { tagCloser } = require("./close_tags");
 const { preview, stopPreview } = require("./preview");
 
-const LANGUAGES = ["urdf", "sdf", "xacro"];
+const LANGUAGES = ["urdf", "sdf", "mjcf", "xacro"];
 
 const STARTED_WITH = ["twinform.command", "twinform.codeLens", "twinform.checkWorkspace"];
 
@@ -28,7 +28,7 @@ async function start() {
         { scheme: "file", language: "yaml" },
         { scheme: "file", pattern: "**/*.srdf" },
       ],
-      synchronize: { fileEvents: workspace.createFileSystemWatcher("**/*.{urdf,sdf,world,xacro}") },
+      synchronize: { fileEvents: workspace.createFileSystemWatcher("**/*.{urdf,sdf,world,mjcf,xml,xacro}") },
       // close_tags.js asks for them
       middleware: { provideOnTypeFormattingEdits: () => [] },
     },
