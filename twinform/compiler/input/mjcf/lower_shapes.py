@@ -10,10 +10,8 @@ from twinform.ir import Box, Capsule, Cylinder, Element, Ellipsoid, Heightmap, M
 from twinform.ir.geometry import Shape
 from twinform.ir.node import Vector3
 from twinform.ir.transform import Transform
+from twinform.passes.legalise.to_mjcf.geoms import ENDLESS, GRID
 from twinform.schemas import format_value
-
-_ENDLESS = 200.0
-"""The size in m in which a plane without an end is drawn; what collides has none."""
 
 
 class PlacedShape(NamedTuple):
@@ -31,7 +29,10 @@ def lower_shape(geom: Piece, assets: AssetTable) -> PlacedShape | None:
     elif kind == "hfield":
         found = _heightmap(geom, assets)
     elif kind == "plane":
-        found = PlacedShape(_plane(geom.peek_numbers("size")))
+        size = geom.peek_numbers("size")
+        found = PlacedShape(_plane(size))
+        if all(size) and size[-1:] == (GRID,):  # such a plane is written as it was
+            geom.take("size")
     elif kind in _PRIMITIVES and geom.has("size") and not geom.has("mesh"):
         found = PlacedShape(_PRIMITIVES[kind](geom.numbers("size")))
     else:
@@ -62,7 +63,7 @@ _PRIMITIVES: Mapping[str, Callable[[Numbers], Shape]] = {
 
 def _plane(size: Numbers) -> Plane:
     # The third number, the spacing of its grid, stays in the remainder with the others.
-    x, y = (2 * each if each > 0 else _ENDLESS for each in (*size, 0.0, 0.0)[:2])
+    x, y = (2 * each if each > 0 else ENDLESS for each in (*size, 0.0, 0.0)[:2])
     return Plane.unchecked(normal=(0.0, 0.0, 1.0), size=(x, y))
 
 

@@ -40,7 +40,9 @@ _SEEN, _TOUCHED = 2, 3
 """The groups of visuals and of collisions."""
 _UNTOUCHED: Attributes = (("contype", "0"), ("conaffinity", "0"))
 _WEIGHTLESS: Attributes = (("density", "0"),)
-_GRID = 1.0
+ENDLESS = 200.0
+"""The size in m that a plane without an end has in SDF, where it only matters for what is seen."""
+GRID = 1.0
 """The distance in m of the lines that are drawn on a plane."""
 _UP: Vector3 = (0.0, 0.0, 1.0)
 
@@ -106,7 +108,7 @@ def _shape_of(context: MjcfContext, body: Body, part: AnyPart) -> Solid | None:
         # A mesh stands for a shape that MJCF lacks.
         replaced = context.replacer.replace(part, body.name)
         shape = replaced.geometry.shape if replaced.geometry and replaced.geometry.shape else written
-        found = _solid(context, body, shape, _grid(part))
+        found = _solid(context, body, shape, _kept_size(part))
     except NoMeshError as error:
         context.leave(part, part)
         message = f"{_called(part, body)} is a {written.kind}, which MJCF does not have"
@@ -125,7 +127,7 @@ def _called(part: Visual | Collision, body: Body) -> str:
     return f"{type(part).__name__.lower()} {part.name!r} of link {body.name!r}"
 
 
-def _solid(context: MjcfContext, body: Body, shape: Shape, grid: float) -> Solid | str | None:
+def _solid(context: MjcfContext, body: Body, shape: Shape, kept: Sequence[float]) -> Solid | str | None:
     """The shape in MJCF; why it has none; or None where that was reported."""
     match shape:
         case Mesh():
@@ -134,7 +136,7 @@ def _solid(context: MjcfContext, body: Body, shape: Shape, grid: float) -> Solid
         case Plane():
             if body.moves:
                 return "is a plane on a link that moves, and MuJoCo takes planes on fixed bodies alone"
-            return _plane(shape, grid)
+            return _plane(shape, kept)
         case Heightmap():
             name = height_field(context, shape)
             context.leave(shape, without_elements(shape, {"size", "pos"}))
@@ -161,16 +163,22 @@ def _size(shape: Box | Sphere | Ellipsoid | Cylinder | Capsule) -> tuple[float, 
             return found
 
 
-def _grid(part: Visual | Collision) -> float:
-    """The distance of the lines on a plane: that of the geom which it was read from, or the usual one."""
+def _kept_size(part: Visual | Collision) -> Sequence[float]:
+    """The size of the geom that a visual or collision was read from, where it keeps that; otherwise nothing."""
     kept = next((size for each in kept_elements(part) if each.name == "geom" and (size := each.get("size"))), "")
-    return float(kept.split()[2]) if len(kept.split()) == 3 else _GRID
+    return tuple(map(float, kept.split()))
 
 
-def _plane(shape: Plane, grid: float) -> Solid:
-    """A plane, which faces z in MJCF; what touches it has no end, and what is seen of it has the written size."""
+def _plane(shape: Plane, kept: Sequence[float]) -> Solid:
+    """A plane, which faces z in MJCF; what touches it has no end, and what is seen of it has the written size.
+
+    A plane that was read of MJCF has the distance of the lines on it, and no end where it has none there.
+    """
     x, y = shape.size or (1.0, 1.0)
-    return Solid([("type", "plane"), ("size", (x / 2, y / 2, grid))], _turn_up_to(shape.normal or _UP))
+    size = (x / 2, y / 2, kept[-1] if kept else GRID)
+    if tuple(2 * each or ENDLESS for each in kept[:2]) == (x, y):
+        size = (kept[0], kept[1], size[-1])
+    return Solid([("type", "plane"), ("size", size)], _turn_up_to(shape.normal or _UP))
 
 
 def _turn_up_to(normal: Vector3) -> Transform:
