@@ -12,10 +12,11 @@ from operator import is_
 from typing import Any, NamedTuple, Protocol, TypeVar, cast
 
 from twinform.dataclass import dataclass
-from twinform.ir import Axis, Dynamics, Limit, Node, Opaque, Surface, rewrite
+from twinform.ir import Axis, Dynamics, Limit, Node, Opaque, Surface, rewrite, walk
 from twinform.ir.node import NOT_CONTENT
 from twinform.ir.record import field_values, fields_of
 from twinform.passes.carriers.annotations import find_annotation, is_annotation, with_annotation, without_annotation
+from twinform.passes.carriers.carriers import is_ours
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 
@@ -191,6 +192,18 @@ def _in_their_places(nodes: list[AnyNode]) -> tuple[AnyNode, ...]:
 def is_rest(partial: Node) -> bool:
     """Whether a partial node is the rest of one of which the target says something."""
     return find_annotation(partial, REST) is not None
+
+
+def is_bare(partial: Node) -> bool:
+    """Whether a partial node, and all in it, hold nothing but names and annotations."""
+    return not any(map(_holds, walk(partial)))
+
+
+def _holds(node: Node) -> bool:
+    """Whether a node has values of its own, or parts that are not ours."""
+    values = ((name, value) for name, value in field_values(node).items() if name not in _APART)
+    has_value = any(not (_is_unwritten(value) or isinstance(value, Node) or _are_nodes(value)) for _, value in values)
+    return has_value or any(not is_ours(part) for part in node.opaque)
 
 
 def written_name(partial: Node) -> str | None:

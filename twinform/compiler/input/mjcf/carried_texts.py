@@ -8,7 +8,7 @@ from twinform.diagnostics.rules import STALE_CARRIER
 from twinform.ir import Node, map_references
 from twinform.ir.frames import MODEL, WORLD
 from twinform.passes.carriers.absorb import CarrierError
-from twinform.passes.carriers.mjcf_texts import KINDS, parse_text_name, read_node
+from twinform.passes.carriers.mjcf_texts import DOCUMENT, KINDS, parse_text_name, read_node
 from twinform.schemas import Context, XmlElement
 
 
@@ -49,7 +49,12 @@ def _read(text: XmlElement, context: Context) -> CarriedText | None:
     except (CarrierError, ValueError) as error:
         report_stale(context.sink, f"{written!r} cannot be read: {error}", source)
         return None
+    if name.attached and name.kind in _OF_FILES:  # what was a file is a part of one
+        return None
     return _attached(CarriedText(name.kind, name.name, node), name.attached)
+
+
+_OF_FILES = frozenset({DOCUMENT, "model", "world"})
 
 
 def _attached(text: CarriedText, prefix: str) -> CarriedText:
@@ -58,7 +63,7 @@ def _attached(text: CarriedText, prefix: str) -> CarriedText:
         return text
     node = map_references(text.node, lambda _, name: name if name in {MODEL, WORLD} else prefix + name)
     own = getattr(node, "name", None)
-    node = node.copy(name=prefix + own) if own and text.kind != "model" else node
+    node = node.copy(name=prefix + own) if own else node
     return text._replace(name=prefix + text.name, node=node)
 
 

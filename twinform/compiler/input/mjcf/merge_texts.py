@@ -20,7 +20,7 @@ from twinform.compiler.input.mjcf.restore_sensors import (
 from twinform.compiler.input.mjcf.spellings import Spellings
 from twinform.compiler.input.mjcf.usual_remainders import without_assets, without_usual
 from twinform.diagnostics import DiagnosticSink
-from twinform.ir import Document, Format, Frame, Joint, Link, Model, Node, Opaque, Pose, World, replace_fields
+from twinform.ir import Document, Format, Frame, Joint, Link, Model, Node, Opaque, Pose, World, replace_fields, rewrite
 from twinform.ir.element import Namespaces
 from twinform.ir.frames import MODEL, WORLD, FrameGraph
 from twinform.ir.scopes import scoped_models
@@ -36,21 +36,53 @@ from twinform.passes.carriers.annotations import (
 from twinform.passes.carriers.carriers import NAMESPACE
 from twinform.passes.carriers.carriers import PREFIX as TF
 from twinform.passes.carriers.mjcf_texts import ATTACHED, DOCUMENT, LOOP, PREFIXES, SEVERAL
-from twinform.passes.carriers.partial_nodes import REST, WRITTEN, Merging, is_rest, written_names
+from twinform.passes.carriers.partial_nodes import REST, WRITTEN, Merging, is_rest, written_name, written_names
 from twinform.passes.legalise.to_sdf.restore_frames import RestoreFrames
 from twinform.passes.legalise.to_sdf.restore_nested import NameScopes, RestoreNested
 from twinform.passes.sdf_versions import change_version
 from twinform.passes.shared.poses import POSE
 from twinform.schemas import DEFAULT_SDF_VERSION, XmlElement, versions_of
 
-AnyPart = TypeVar("AnyPart", Link, Joint, Frame)
+AnyPart = TypeVar("AnyPart", Link, Joint, Frame, Model)
 
 
 def merge_texts(document: Document, texts: tuple[CarriedText, ...], root: XmlElement, sink: DiagnosticSink) -> Document:
     """The document of a canonical tree with what carriers hold, in the version of SDF that its source had."""
-    if not any(each.kind == DOCUMENT for each in texts):
+    if not texts:
         return document
+    if not any(each.kind == DOCUMENT for each in texts):
+        return _with_parts(document, texts, root, sink)
     return _Merged(document, texts, root, sink).document()
+
+
+def _with_parts(document: Document, texts: tuple[CarriedText, ...], root: XmlElement, sink: DiagnosticSink) -> Document:
+    """A document of MJCF with what carriers hold of its links and joints.
+
+    They are those of a file that was attached, or of what somebody has added to a file of SDF that was made of MJCF.
+    """
+    merging = Merging(Spellings(root))
+    partials = {(type(each.node), written_name(each.node)): without_annotation(each.node, WRITTEN) for each in texts}
+
+    def merged(node: AnyPart) -> AnyPart:
+        partial = partials.get((type(node), node.name))
+        if partial is None or not isinstance(partial, type(node)):
+            return node
+        return merging.merge(node, partial)
+
+    def in_model(model: Model) -> Model:
+        return replace_fields(
+            merged(model),
+            links=tuple(merged(each) for each in model.links),
+            joints=tuple(merged(each) for each in model.joints),
+            frames=tuple(merged(each) for each in model.frames),
+        )
+
+    document = rewrite(document, Model, in_model)
+    for stale in merging.stale:
+        report_stale(
+            sink, f"a carrier holds a rest of {type(stale).__name__.lower()} that belongs to nothing", stale.source
+        )
+    return document
 
 
 def _is_free(root: XmlElement) -> bool:

@@ -11,14 +11,14 @@ AnyNode = TypeVar("AnyNode", bound=Node)
 _KEPT = "mjcf"
 _NAME = f"{{{NAMESPACE}}}{_KEPT}"
 # The groups of visuals and collisions, and what keeps MuJoCo from giving them a mass.
-# The names of assets are made of those of files. The reference of a spring that has no stiffness means nothing.
+# Assets are named after files, a plane has a grid, and the reference of a spring without stiffness means nothing.
 _USUAL: Mapping[str, Mapping[str, frozenset[str] | None]] = {
     "compiler": {
         "angle": frozenset({"radian"}),
         "autolimits": frozenset({"false"}),
         "inertiafromgeom": frozenset({"false"}),
     },
-    "geom": {"group": frozenset({"2", "3"}), "density": frozenset({"0"}), "mesh": None, "hfield": None},
+    "geom": {"group": frozenset({"2", "3"}), "density": frozenset({"0"}), "mesh": None, "hfield": None, "size": None},
     "joint": {"springref": None},
     "site": {"group": frozenset({"4"})},
 }

@@ -35,7 +35,7 @@ from twinform.ir import (
 from twinform.ir.frames import MODEL, WORLD, FrameGraph
 from twinform.ir.transform import Transform
 from twinform.passes.carriers.annotations import FROM, annotation, came_from, is_synthesized
-from twinform.passes.carriers.carriers import NAMESPACE, to_element
+from twinform.passes.carriers.carriers import NAMESPACE, to_element, without_ours
 from twinform.passes.carriers.joint_chains import CHAINS
 from twinform.passes.carriers.mjcf_texts import (
     ATTACHED,
@@ -56,7 +56,7 @@ from twinform.passes.carriers.mjcf_texts import (
     text_name,
     xml_data,
 )
-from twinform.passes.carriers.partial_nodes import EXISTENCE, PLACE, REST, WRITTEN, Left, remainder
+from twinform.passes.carriers.partial_nodes import EXISTENCE, PLACE, REST, WRITTEN, Left, is_bare, remainder
 from twinform.passes.carriers.said_by_mjcf import said_by_mjcf, said_of_limit
 from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext
 from twinform.passes.legalise.to_urdf.express_axes import ExpressAxes
@@ -80,6 +80,9 @@ def add_texts(context: MjcfContext) -> None:
     """Add a text to the `custom` section for each part that MJCF leaves unsaid. All other sections are complete."""
     texts = _Texts(context)
     model = texts.flat
+    if context.is_of_mjcf:
+        texts.add_additions(model)
+        return
     texts.add(DOCUMENT, "", texts.document)
     if isinstance(context.holder, World):
         if context.document.worlds:
@@ -155,12 +158,26 @@ class _Texts:
         left = remainder(node, self.said, self.notes)
         if left is None and isinstance(node, World):  # what is a model has no world around it
             left = World.unchecked(name=node.name)
-        if left is None:
-            return
+        if left is not None:
+            self._add_text(kind, name, left, node)
+
+    def _add_text(self, kind: str, name: str, left: Node, node: Node) -> None:
         xml = bare_xml(left, kind)
         self._account(xml, f"{kind} {name!r}" if name else f"the {kind}", node)
         if self.context.keeper.carriers:
             self.context.add("custom", text_element(text_name(kind, name), xml_data(xml)))
+
+    def add_additions(self, model: Model) -> None:
+        """Add texts for what was added to a document of MJCF while it was SDF: plugins and the like."""
+        nothing = {"visuals": (), "collisions": (), "sensors": (), "lights": ()}
+        links = (each.copy(**nothing) for each in model.links)
+        moving = (each for each in model.joints if each.type != "fixed")
+        for kind, parts in (("model", (model,)), ("link", links), ("joint", moving)):
+            for each in parts:
+                self.joint = each if isinstance(each, Joint) else None
+                left = remainder(without_ours(each), self.said, lambda _: ())
+                if left is not None and not is_bare(left):
+                    self._add_text(kind, each.name, left, each)
 
     def said(self, node: Node) -> frozenset[str] | Left | None:
         """The fields of a node that this file says, and what its writer left of it."""
