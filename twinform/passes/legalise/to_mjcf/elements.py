@@ -9,6 +9,7 @@ from twinform.diagnostics import Source
 from twinform.ir import Element
 from twinform.ir.transform import Transform, rounded
 from twinform.schemas import format_value
+from twinform.schemas.value_types import format_numbers
 
 Value = str | float | bool | tuple[float, ...] | None
 """What an attribute may be made of; one that is None is not written."""
@@ -27,7 +28,9 @@ def make_element(
 
 def attribute_text(value: str | float | bool | tuple[float, ...]) -> str:
     """The text of a value."""
-    return value if isinstance(value, str) else format_value(value)
+    if isinstance(value, str):
+        return value
+    return format_numbers(value) if isinstance(value, tuple) else format_value(value)
 
 
 def with_attributes(element: Element, attributes: Attributes) -> Element:
@@ -49,7 +52,7 @@ def placement(transform: Transform) -> list[tuple[str, Value]]:
 
 def position(transform: Transform) -> tuple[float, float, float]:
     """The translation, without the noise of computing it."""
-    return rounded(transform.translation)
+    return rounded(transform.translation) if transform.notation is None else transform.translation
 
 
 def orientation(transform: Transform) -> tuple[float, float, float, float]:

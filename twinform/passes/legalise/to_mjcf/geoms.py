@@ -90,7 +90,7 @@ def _group(context: MjcfContext, part: Visual | Collision, group: int) -> list[t
 
 
 def _geom(context: MjcfContext, body: Body, part: AnyPart, shape: Solid, more: Attributes) -> Element:
-    name = context.name_in(body, "geom", part.name, part.location)
+    name = context.name_in(body, "geom", part.name, part)
     if name is not None:
         context.written_geoms[id(part)] = name
     at = context.resolve(part.pose, body).compose(shape.at)

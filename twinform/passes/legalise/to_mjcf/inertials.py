@@ -62,8 +62,10 @@ def weight_of(link: Link) -> Weight:
 
 
 def _has_token_moments(inertial: Inertial) -> bool:
-    written = [getattr(inertial.inertia, name) or 0.0 for name in MOMENTS] if inertial.inertia else []
-    return bool(written) and all(value in (0.0, TOKEN_MOMENT) for value in written)
+    if inertial.inertia is None or inertial.inertia.ixx not in (None, 0.0, TOKEN_MOMENT):
+        return False
+    written = [getattr(inertial.inertia, name) or 0.0 for name in MOMENTS]
+    return all(value in (0.0, TOKEN_MOMENT) for value in written)
 
 
 def inertial_elements(context: MjcfContext, body: Body) -> list[Element]:

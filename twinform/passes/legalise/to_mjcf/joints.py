@@ -101,7 +101,7 @@ def _screw(context: MjcfContext, body: Body, between: JointBetween, at: Transfor
 
 
 def _name(context: MjcfContext, between: JointBetween, wanted: str) -> str:
-    return context.name("joint", wanted, between.joint.location) or wanted
+    return context.name("joint", wanted, between.joint) or wanted
 
 
 def _element(

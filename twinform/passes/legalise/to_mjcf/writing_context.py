@@ -27,6 +27,7 @@ from twinform.ir import (
 )
 from twinform.ir.frames import WORLD, Kind
 from twinform.ir.kinematic_tree import KinematicTree
+from twinform.ir.record import Sourced
 from twinform.ir.scopes import SCOPE, scoped_models
 from twinform.ir.transform import Transform
 from twinform.passes.carriers.annotations import came_from
@@ -180,7 +181,7 @@ class MjcfContext:
         """Note what MJCF leaves of a node, whose fields and untyped elements it says in part."""
         self.left[id(node)] = (node, left)  # the node too, which keeps its identity from being used again
 
-    def name(self, kind: str, wanted: str | None, where: Location) -> str | None:
+    def name(self, kind: str, wanted: str | None, where: Location | Sourced) -> str | None:
         """A name that no other part of this kind has: the one that is wanted, or with a number behind it.
 
         Names of MJCF are unique per kind in the whole file. A change of name is in the ledger.
@@ -196,10 +197,10 @@ class MjcfContext:
         used.add(made)
         if made != wanted:
             message = f"{kind} {wanted!r} is called {made!r}: names are unique in all of MJCF"
-            self.sink.account(Fate.APPROXIMATED, rules.RENAMED, message, where, 0)
+            self._account_name(message, where)
         return made
 
-    def name_in(self, body: Body, kind: str, wanted: str | None, where: Location) -> str | None:
+    def name_in(self, body: Body, kind: str, wanted: str | None, where: Location | Sourced) -> str | None:
         """A name for a part of a body: where another body has one of this name, the body's name stands before it."""
         if not wanted:
             return None
@@ -207,8 +208,13 @@ class MjcfContext:
             return self.name(kind, wanted, where)
         made = self.name(kind, f"{body.written}_{wanted}", where)
         message = f"{kind} {wanted!r} of link {body.name!r} is called {made!r}: names are unique in all of MJCF"
-        self.sink.account(Fate.APPROXIMATED, rules.RENAMED, message, where, 0)
+        self._account_name(message, where)
         return made
+
+    def _account_name(self, message: str, where: Location | Sourced) -> None:
+        # Few names change, and to find a place takes longer than to compare a name.
+        place = where if isinstance(where, Location) else where.location
+        self.sink.account(Fate.APPROXIMATED, rules.RENAMED, message, place, 0)
 
     def resolve(self, pose: Pose | None, body: Body) -> Transform:
         """Where a pose is in the frame of a body; it is in that frame unless it names another.
