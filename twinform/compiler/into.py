@@ -16,7 +16,7 @@ from twinform.compiler.input.loading import LoadOptions, LoadResult, read
 from twinform.compiler.mjcf_remainder import DropKept, in_degrees, is_in_degrees, without_own_sites
 from twinform.compiler.request import ConversionRequest
 from twinform.dataclass import dataclass
-from twinform.diagnostics import NOWHERE, DiagnosticSink, Location
+from twinform.diagnostics import NOWHERE, Diagnostic, DiagnosticSink, Location
 from twinform.diagnostics.rules import EDIT_CONFLICT
 from twinform.ir import Document, Format
 from twinform.passes import Pipeline
@@ -164,6 +164,11 @@ class Follower:
         return sum(1 for _ in candidates(_document(self.into))) > 1
 
     @property
+    def has_world(self) -> bool:
+        """Whether the file has a world around the model that follows."""
+        return bool(_document(self.into).worlds)
+
+    @property
     def robot_name(self) -> str | None:
         """The name of the robot that is followed, if there is one at the root of its file."""
         return next((each.name for each in _document(self.edited).models), None)
@@ -239,7 +244,7 @@ def _require_the_robot(made: Updated, before: Conversion, into: LoadResult, load
     except CompileError as error:
         sink.report(
             EDIT_CONFLICT,
-            f"cannot be changed in place: it would be wrong: {error.diagnostics[0].message}",
+            f"cannot be changed in place: it would be wrong: {_first_error(error)}",
             Location(line=1, path="/"),
         )
         raise CompileError((*after.diagnostics, *sink.diagnostics)) from error
@@ -252,6 +257,14 @@ def _require_the_robot(made: Updated, before: Conversion, into: LoadResult, load
             sink.report(EDIT_CONFLICT, message, Location(line=where.line or 1, path=where.path or "/"))
     if sink.diagnostics:
         raise CompileError((*after.diagnostics, *sink.diagnostics))
+
+
+def _first_error(error: CompileError) -> str:
+    return next(each.message for each in (*filter(_is_error, error.diagnostics), *error.diagnostics))
+
+
+def _is_error(found: Diagnostic) -> bool:
+    return found.is_error
 
 
 def _key(found: Difference) -> Key:

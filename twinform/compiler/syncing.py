@@ -156,9 +156,8 @@ def _followed(found: SyncedFile, follower: Follower, options: SyncOptions) -> Sy
     Raises:
         CompileError: the smallest change cannot be made, and the file may not be written anew.
     """
-    # What stands around the robot in a file with a world would be lost.
-    alone = found.format in _ANEW and bool(follower.into.document and follower.into.document.models)
-    anew = options.rewrite or alone
+    # Of a file with a world, what stands around the robot would be lost.
+    anew = (options.rewrite or found.format in _ANEW) and not (follower.has_several or follower.has_world)
     try:
         made = follower.updated()
         if not made.changes:

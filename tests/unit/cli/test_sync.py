@@ -152,6 +152,18 @@ def test_what_cannot_be_changed_alone_is_written_anew_only_when_asked(
     assert "<mass>2</mass>" in Path("r.sdf").read_text()
 
 
+def test_a_file_with_a_world_is_never_written_anew(run: Run, here: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(Follower, "updated", _no_change)
+    world = SDF.replace("<model", '<world name="w"><light name="sun" type="point"/><model').replace(
+        "</sdf>", "</world></sdf>"
+    )
+    Path("r.sdf").write_text(world)
+    Path("r.urdf").write_text(HEAVY)
+    done = run("sync", "r.urdf", "r.sdf", "--rewrite")
+    assert (done.exit_code, Path("r.sdf").read_text()) == (1, world)
+    assert "cannot be changed in place" in done.stderr
+
+
 def _no_change(follower: Follower) -> object:
     content = follower.into.content or b""
     return Updated(follower.conversion, content, (), content)
