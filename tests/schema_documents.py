@@ -22,14 +22,22 @@ _SIZES = {
     "color4": 4,
     "pose": 6,
 }
+_TEXTS = {
+    "doubles": ("", "1", "0.5 -inf 1e-3"),
+    "ints": ("", "0", "1 -2 3"),
+    "words": ("", "a", "a b"),
+    "memory": ("-1", "10M"),
+    "axes": ("xyz", "XYz"),
+}
+"""Values of types that only MJCF has."""
 
 
 def document(random: Random, format: str, version: str) -> bytes:
-    """A document of a version of `urdf` or `sdf`; simple choices are small numbers, so that it shrinks."""
+    """A document of a version of a format; simple choices are small numbers, so that it shrinks."""
     made = _Document(random, table(format), parse_version(version))
     root = made.element(made.table.definitions[made.table.root], 0, "")
     root.attrib.pop("version", None)
-    if format == "sdf" or version != "1.0":
+    if format == "sdf" or (format == "urdf" and version != "1.0"):
         root.set("version", version)
     return etree.tostring(root)
 
@@ -62,17 +70,30 @@ class _Document:
         """A value of a row."""
         if row.enum:
             return self.random.choice(row.enum)
+        if row.type in _TEXTS or "." in (row.type or ""):
+            return self._text_of_mjcf(row)
         if row.type in _SIZES:
             return " ".join(self._number(row, whole=row.type == "vector2i") for _ in range(_SIZES[row.type]))
         match row.type:
             case "bool":
-                return self.random.choice(("true", "false", "1", "0"))
+                return self.random.choice(
+                    ("true", "false") if self.table.format == "mjcf" else ("true", "false", "1", "0")
+                )
             case "int" | "uint":
                 return self._number(row, whole=True)
             case "double" | "time":
                 return self._number(row, whole=False)
             case _:
                 return self._word(row)
+
+    def _text_of_mjcf(self, row: Fact) -> str:
+        """A value of a type that only MJCF has."""
+        kind, _, lengths = (row.type or "").partition(".")
+        if not lengths:
+            return self.random.choice(_TEXTS[kind])
+        least, _, most = lengths.partition("-")
+        count = self.random.randint(int(least), int(most or least))
+        return " ".join(self._number(row, whole=kind == "int") for _ in range(count))
 
     def _word(self, row: Fact) -> str:
         if row.name != "@name":
@@ -83,7 +104,8 @@ class _Document:
     def _number(self, row: Fact, *, whole: bool) -> str:
         least = row.min if row.min is not None else 0 if row.type in {"uint", "color", "color4"} else float("-inf")
         most = row.max if row.max is not None else 1 if row.type in {"color", "color4"} else float("inf")
-        fitting = [text for text in (_WHOLE if whole else _NUMBERS) if least <= float(text) <= most]
+        texts = _WHOLE[: -1 if self.table.format == "mjcf" else None] if whole else _NUMBERS
+        fitting = [text for text in texts if least <= float(text) <= most]
         return self.random.choice(fitting or [f"{least if least > float('-inf') else most:g}"])
 
     def _chosen(self, rows: Sequence[Fact], depth: int) -> list[Fact]:
