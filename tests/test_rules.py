@@ -44,7 +44,6 @@ WITHOUT_CASE = {
     "nested-too-deeply": "unit/passes/legalise/to_mjcf/test_bodies.py",
     "nothing-to-add-to": "unit/passes/plugins/test_add_plugin.py",
     "open-mesh": "unit/passes/shared/test_mesh_solids.py",
-    "oversized-file": "hostile/test_documents.py",
     "package-name": "unit/compiler/packaging/test_ros2_packages.py",
     "placeholder": "unit/cli/test_package.py",
     "renamed-collision": "unit/profiles/test_lost_tags.py",
