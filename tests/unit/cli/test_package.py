@@ -545,3 +545,4 @@ def test_a_folder_for_mujoco_has_a_robot_a_scene_and_its_files(run: Run, tmp_pat
     assert {name.decode() for name in named} <= {path for path in files if path.startswith("assets/")}
     assert b'<include file="model.xml"/>' in files["scene.xml"]
     assert "TODO" not in done.stderr
+    assert not [path for path in files if path.endswith(".mtl")]  # which MuJoCo does not read

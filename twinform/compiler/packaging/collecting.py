@@ -92,11 +92,13 @@ class Collection:
     """The files of a package while they are collected: files of equal content are there once.
 
     `sources` has the original of each file, also of those in which names of other files are rewritten. A `lenient`
-    collection leaves out files that a mesh names and that are missing, and notes them in `problems`.
+    collection leaves out files that a mesh names and that are missing, and notes them in `problems`. What meshes name is
+    left out without `companions`, for readers that look at nothing of it.
     """
 
     layout: PackageLayout
     lenient: bool = False
+    companions: bool = True
     files: dict[str, Content] = field(default_factory=dict[str, Content])
     sources: dict[str, Path] = field(default_factory=dict[str, Path])
     problems: list[UncollectedError] = field(default_factory=list[UncollectedError])
@@ -170,7 +172,7 @@ class Collection:
         kind = kind_of(found) or "data"
         content = self._checked(found, origins)
         format_ = FORMATS.get(suffix_of(found))
-        if format_ is None or content.stat().st_size > _LARGEST_READ:
+        if format_ is None or not self.companions or content.stat().st_size > _LARGEST_READ:
             return self._place_of(found, kind, content, (digest_of(content),), origins)
         data = origins.assets.readable.read(found)
         named = self._places_of_references(found, kind, data, format_, origins)

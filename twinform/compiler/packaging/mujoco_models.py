@@ -30,7 +30,7 @@ def build(order: Order, collection: Collection) -> Built:
     Raises:
         CompileError: the model or a file of it has an error.
     """
-    own = Collection(_LAYOUT, collection.lenient)
+    own = Collection(_LAYOUT, collection.lenient, companions=False)  # MuJoCo takes no colors from a mesh
     for name in (MODEL, SCENE):
         own.reserve(name)
     made = _with_passes(order).convert(own, "mjcf")
@@ -41,7 +41,7 @@ def build(order: Order, collection: Collection) -> Built:
 
 def _with_passes(order: Order) -> Order:
     """Return the order with the pass that writes meshes in a format of MuJoCo."""
-    # Colors come from the material of a geom, and MuJoCo takes none from a mesh file.
+    # Colors come from the material of a geom, and not from the file of its mesh.
     meshes = ConvertMeshes.model_validate({"for": "mujoco", "folder": ASSETS, "drop_appearance": True})
     passes = Pipeline((*order.conversion.passes, meshes))
     return replace(order, conversion=replace(order.conversion, passes=passes))
