@@ -329,3 +329,11 @@ def test_actuators_move_joints_to_what_is_commanded(tmp_path: Path) -> None:
     data.actuator("turn").ctrl[0] = 9.0
     _run(model, data, 2.0)
     assert data.joint("robot::turn").qpos[0] == pytest.approx(2.0, abs=1e-2)
+
+
+def test_a_joint_between_frames_of_one_link_holds_nothing(tmp_path: Path) -> None:
+    frames = "<frame name='f' attached_to='inner::base'/><frame name='g' attached_to='inner::base'/>"
+    joint = "<joint name='j' type='revolute'><parent>f</parent><child>g</child><axis><xyz>0 0 1</xyz></axis></joint>"
+    inner = _model(_model(_link("base"), "inner") + frames + joint, "middle")
+    model, _ = _loaded(_model(inner), tmp_path)
+    assert model.neq == 0

@@ -35,6 +35,10 @@ def _close(context: MjcfContext, between: JointBetween) -> None:
         ("body1", _body(context, between.parent)),
         ("body2", _body(context, between.child)),
     ]
+    if between.parent == between.child:
+        message = f"joint {joint.name!r} connects frames of one link, which holds them by itself"
+        context.account(rules.NOT_IN_MJCF, message, joint.location, 0)
+        return
     if joint.type == "fixed":
         _add(context, between, [_equality("weld", between.name, ends, joint)])
         return
