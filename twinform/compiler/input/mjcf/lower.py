@@ -104,7 +104,7 @@ class FileLowering:
         self._close_loops(number, lowering, parts)
         self._add_sensors(number, parts)
         given = reserve_name(safe_name(name or _MODEL), taken)
-        is_static = lowering.is_static and self.is_world
+        is_static = lowering.is_static
         model = Model.unchecked(
             name=given,
             pose=pose_of(tree.transform(), source=tree.source),

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from twinform.diagnostics import rules
-from twinform.ir import Element
+from twinform.ir import Element, Link
 from twinform.ir.frames import WORLD
 from twinform.ir.kinematic_tree import JointBetween
 from twinform.passes.carriers.annotations import MADE_NAME, find_annotation, is_synthesized
@@ -44,6 +44,13 @@ def body_elements(context: MjcfContext) -> list[Element]:
         FrameError: a frame is not known, or frames go round in a circle.
     """
     return _BodyTree(context).elements()
+
+
+def _free_joint(link: Link) -> Element:
+    """The joint of a body that floats: one without settings, unless the link keeps one with a damping or the like."""
+    if any(each.name == "joint" for each in kept_elements(link)):
+        return with_kept(make_element("joint", [("type", "free")]), link)
+    return with_kept(make_element("freejoint"), link)
 
 
 class _BodyTree:
@@ -141,7 +148,7 @@ class _BodyTree:
         """What is in a body beside the bodies in it."""
         context = self.context
         is_free = body.moves and not hold.joints
-        free = [with_kept(make_element("freejoint", source=None), body.link)] if is_free else []
+        free = [_free_joint(body.link)] if is_free else []
         return [
             *inertial_elements(context, body),
             *free,
