@@ -101,6 +101,8 @@ class ContactPlan:
     def _needless_contacts(self, links: list[str]) -> Iterator[Pair]:
         """Yield the pairs of links of one model that do not touch in SDF, and would in MuJoCo."""
         loose = [link for link in links if not self._flagged[link]]
+        if len({self._weld(link) for link in loose}) == 1:  # as in a static model, however many links it has
+            return iter(())
         return (pair for pair in combinations(loose, 2) if not self._is_filtered(*pair))
 
     def _joined(self) -> Iterator[Pair]:

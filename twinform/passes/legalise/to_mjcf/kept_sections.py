@@ -50,26 +50,38 @@ class _Names:
 def add_kept_sections(context: MjcfContext) -> None:
     """Add what the holder and all models in it keep. All other sections are complete."""
     inner = [(scope, each) for scope, each in context.models if each is not context.holder]
-    names = _Names(context)
+    names, sections = _Names(context), _Sections(context)
     for scope, each in (("", context.holder), *inner):
         for kept in kept_elements(each):
             if kept.name in SINGLE:
                 context.add(kept.name, kept)
                 continue
             for part in kept.children:
-                _add(context, kept.name, _renamed(part, names, scope))
+                sections.add(kept.name, _renamed(part, names, scope))
     for scope, reading in context.kept_readings:
-        context.add("sensor", _renamed(reading, names, scope))
+        sections.add("sensor", _renamed(reading, names, scope))
 
 
-def _add(context: MjcfContext, section: str, element: Element) -> None:
-    """Add an element to a section, or to the one of its name that is there, such as a material that visuals have."""
-    there, key = context.sections[section], (element.name, element.get("name"))
-    same = [index for index, each in enumerate(there) if key[1] and (each.name, each.get("name")) == key]
-    if same:
-        there[same[0]] = _merged(there[same[0]], element)
-    else:
-        context.add(section, element)
+class _Sections:
+    """The sections of a context, where an element joins the one of its name, such as a material that visuals have."""
+
+    def __init__(self, context: MjcfContext) -> None:
+        self._sections = context.sections
+        self._places = {
+            (section, each.name, each.get("name")): place
+            for section, elements in context.sections.items()
+            for place, each in enumerate(elements)
+        }
+
+    def add(self, section: str, element: Element) -> None:
+        """Add an element to a section."""
+        there, key = self._sections[section], (section, element.name, element.get("name"))
+        if key[-1] and key in self._places:
+            place = self._places[key]
+            there[place] = _merged(there[place], element)
+            return
+        self._places[key] = len(there)
+        there.append(element)
 
 
 def _merged(element: Element, kept: Element) -> Element:
