@@ -92,8 +92,8 @@ class Collection:
     """The files of a package while they are collected: files of equal content are there once.
 
     `sources` has the original of each file, also of those in which names of other files are rewritten. A `lenient`
-    collection leaves out files that a mesh names and that are missing, and notes them in `problems`. What meshes name is
-    left out without `companions`, for readers that look at nothing of it.
+    collection leaves out files that a mesh names and that are missing, and notes them in `problems`. Without
+    `companions`, what meshes name is left out, for readers that look at nothing of it.
     """
 
     layout: PackageLayout
