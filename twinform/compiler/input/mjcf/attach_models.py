@@ -79,7 +79,7 @@ class Attaching:
         settings = self.prepare(child, findings, inner)
         if is_too_large(child, findings, self.load_options.limits.tags):
             return None
-        return _selected(attachment, child, settings, findings)
+        return self._selected(attachment, child, settings, findings)
 
     def _name_of(self, asset: XmlElement) -> str:
         """Return the name of a model among the assets: where it has none, the one that its file says."""
@@ -98,11 +98,32 @@ class Attaching:
         child = deepcopy(whole)
         if self._is_too_much(child, attachment, findings):
             return None
-        child = _selected(attachment, child, CompilerSettings(degrees=False), findings)
+        child = self._selected(attachment, child, CompilerSettings(degrees=False), findings)
         if child is not None and next(child.iter("attach"), None) is not None:
             message = "what is attached here has an <attach> in it, maybe this one"
             findings.report(rules.UNATTACHED_MODEL, attachment, message)
             return None
+        return child
+
+    def _selected(
+        self, attachment: XmlElement, child: XmlElement, settings: CompilerSettings, findings: ElementFindings
+    ) -> XmlElement | None:
+        """Return a tree with nothing but the named body or frame in its world, and its frames expanded."""
+        worldbody = child.find("worldbody")
+        for tag in ("body", "frame"):
+            name = attachment.get(tag)
+            if name is None:
+                continue
+            found = None if worldbody is None else next((e for e in worldbody.iter(tag) if e.get("name") == name), None)
+            if worldbody is None or found is None:
+                message = f"the model that is attached has no {tag} {name!r}"
+                findings.report(rules.UNATTACHED_MODEL, attachment, message, f"@{tag}", found=name)
+                return None
+            for each in list(worldbody):
+                worldbody.remove(each)
+            worldbody.append(found)
+            break
+        expand_frames(child, settings, findings, self.load_options.limits.tags)
         return child
 
     def _is_too_much(self, child: XmlElement, attachment: XmlElement, findings: ElementFindings) -> bool:
@@ -169,28 +190,6 @@ class Attaching:
                         each.set("name", f"{prefix}{each.get('name')}")
                     rename(each, names, lambda name: f"{prefix}{name}")
         return content
-
-
-def _selected(
-    attachment: XmlElement, child: XmlElement, settings: CompilerSettings, findings: ElementFindings
-) -> XmlElement | None:
-    """Return a tree with nothing but the named body or frame in its world, and its frames expanded."""
-    worldbody = child.find("worldbody")
-    for tag in ("body", "frame"):
-        name = attachment.get(tag)
-        if name is None:
-            continue
-        found = None if worldbody is None else next((e for e in worldbody.iter(tag) if e.get("name") == name), None)
-        if worldbody is None or found is None:
-            message = f"the model that is attached has no {tag} {name!r}"
-            findings.report(rules.UNATTACHED_MODEL, attachment, message, f"@{tag}", found=name)
-            return None
-        for each in list(worldbody):
-            worldbody.remove(each)
-        worldbody.append(found)
-        break
-    expand_frames(child, settings, findings)
-    return child
 
 
 def _report_unread(problem: Diagnostic | None, file: str, asset: XmlElement, findings: ElementFindings) -> None:

@@ -1,5 +1,6 @@
 """Checks the bodies of canonical MJCF: the joints that a body may have, and the mass that what moves needs."""
 
+import math
 from collections.abc import Iterator
 
 from twinform.compiler.input.mjcf.element_findings import ElementFindings
@@ -131,7 +132,8 @@ class _MassCheck:
         full, diagonal = numbers_of(inertial, "fullinertia", count=6), numbers_of(inertial, "diaginertia", count=3)
         if full is not None:
             xx, yy, zz, xy, xz, yz = full[:6]
-            moments = principal_moments((xx, yy, zz, xy, xz, yz))
+            is_finite = all(map(math.isfinite, full))
+            moments = principal_moments((xx, yy, zz, xy, xz, yz)) if is_finite else (0.0, 0.0, 0.0)
             if min(moments) <= 0:
                 message = "the matrix of 'fullinertia' is not positive definite"
                 found = inertial.get("fullinertia")

@@ -11,6 +11,10 @@ _WORLD = "world"
 _WORDS = {"geom": "geom", "hfield": "height field", "key": "keyframe", "exclude": "excluded pair"}
 _REFERRED = frozenset({*KINDS.values(), *ASSET_KINDS, *SECTION_KINDS.values(), "tuple"}) - {"model"}
 
+_SECTIONS = frozenset({
+    "asset", "worldbody", "contact", "deformable", "equality", "tendon", "actuator", "sensor", "custom", "visual",
+})  # fmt: skip
+
 Named = dict[str, dict[str, XmlElement]]
 """The named elements by kind and name."""
 
@@ -35,7 +39,8 @@ def check_names(root: XmlElement, findings: ElementFindings) -> Named:
 def check_references(root: XmlElement, named: Named, findings: ElementFindings) -> None:
     """Report what refers to nothing."""
     made_up = next(root.iter("flexcomp"), None) is not None  # it makes bodies, whose names are not known here
-    for element in root.iter("*"):
+    sections = (section for section in root.iterchildren("*") if section.tag in _SECTIONS)  # MuJoCo skips others
+    for element in (element for section in sections for element in section.iter("*")):
         for reference in own_references(element):
             kind, name = reference.kind, reference.name
             if kind not in _REFERRED or name in named[kind] or (kind == "body" and (name == _WORLD or made_up)):

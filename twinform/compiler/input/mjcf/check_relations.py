@@ -188,8 +188,23 @@ def _check_asset(asset: XmlElement, findings: ElementFindings) -> None:
     tag = str(asset.tag)
     if tag == "material" and not asset.get("name"):
         findings.report(rules.MISSING_ATTRIBUTE, asset, "<material> has no name", expected="@name")
+    if tag == "texture":
+        _check_texture(asset, findings)
     if tag == "mesh" and not any(name in asset.attrib for name in ("file", "vertex", "builtin")) and not len(asset):
         findings.report(rules.MISSING_ATTRIBUTE, asset, "<mesh> has neither a file nor vertices", expected="@file")
+
+
+def _check_texture(texture: XmlElement, findings: ElementFindings) -> None:
+    builtin, kind = texture.get("builtin", "none"), texture.get("type", "cube")
+    if builtin != "none":
+        sizes = ("width",) if kind != "2d" else ("width", "height")
+        for name in sizes:
+            if (numbers_of(texture, name, (0.0,), count=1) or (0.0,))[0] < 1:
+                message = f"a texture with 'builtin' needs a {name!r} of at least 1"
+                findings.report(rules.MISSING_ATTRIBUTE, texture, message, expected=f"@{name}")
+    elif not any(name.startswith("file") for name in map(str, texture.attrib)):
+        message = "<texture> has neither a file nor 'builtin'"
+        findings.report(rules.MISSING_ATTRIBUTE, texture, message, expected="@file")
 
 
 def _report_unfit(element: XmlElement, attribute: str, message: str, findings: ElementFindings) -> None:

@@ -21,7 +21,7 @@ def check_notations(root: XmlElement, findings: ElementFindings) -> None:
         if len(written) > 1:
             message = f"<{element.tag}> has more than one orientation: {' and '.join(written)}"
             findings.report(rules.TWO_ROTATIONS, element, message, f"@{written[1]}", found=written[1])
-        if element.tag in {"geom", "site"} and "fromto" in element.attrib and "pos" in element.attrib:
+        if element.tag in {"geom", "site"} and "fromto" in element.attrib and any(numbers_of(element, "pos", ()) or ()):
             message = f"<{element.tag}> has both 'pos' and 'fromto', in itself or in its class"
             findings.report(rules.TWO_PLACEMENTS, element, message, "@fromto", found=element.get("fromto"))
 

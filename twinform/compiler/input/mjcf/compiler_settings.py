@@ -5,12 +5,14 @@ What only the compiler of MuJoCo can apply, such as `balanceinertia` and `settot
 
 from posixpath import basename, isabs, join
 
-from twinform.compiler.input.mjcf.element_findings import set_line
+from twinform.compiler.input.mjcf.element_findings import ElementFindings, set_line
 from twinform.dataclass import dataclass
+from twinform.diagnostics import rules
 from twinform.schemas import XmlElement
 
 APPLIED = ("autolimits", "coordinate", "eulerseq", "meshdir", "texturedir", "assetdir", "strippath")
 """Attributes of which nothing is left to do in canonical MJCF."""
+_USUAL_SEQUENCE = "xyz"
 _MESH_FILES = frozenset({"mesh", "hfield", "skin", "flexcomp"})
 _TEXTURE_FILES = (
     "file",
@@ -29,7 +31,7 @@ class CompilerSettings:
 
     degrees: bool = True
     autolimits: bool = True
-    sequence: str = "xyz"
+    sequence: str = _USUAL_SEQUENCE
     mesh_folder: str = ""
     texture_folder: str = ""
     strip_path: bool = False
@@ -42,7 +44,7 @@ class CompilerSettings:
         return cls(
             values.get("angle", "degree") == "degree",
             values.get("autolimits", "true") == "true",
-            values.get("eulerseq", "xyz"),
+            _sequence(values.get("eulerseq", _USUAL_SEQUENCE)),
             values.get("meshdir", folder),
             values.get("texturedir", folder),
             values.get("strippath", "false") == "true",
@@ -63,6 +65,21 @@ class CompilerSettings:
             return
         file = basename(file.replace("\\", "/")) if self.strip_path else file
         element.set(name, file if isabs(file) or not folder else join(folder, file))
+
+
+def report_sequences(root: XmlElement, findings: ElementFindings) -> None:
+    """Report sequences of axes that are none."""
+    for section in root.iterchildren("compiler"):
+        written = section.get("eulerseq", _USUAL_SEQUENCE)
+        if _sequence(written) != written:
+            expected = "three letters of x, y, z, X, Y and Z"
+            message = f"'eulerseq' is {written!r}; expected {expected}"
+            findings.report(rules.INVALID_VALUE, section, message, "@eulerseq", found=written, expected=expected)
+
+
+def _sequence(text: str) -> str:
+    """Return a sequence of axes, or the usual one where a text is none."""
+    return text if len(text) == 3 and all(letter in "xyzXYZ" for letter in text) else _USUAL_SEQUENCE
 
 
 def rewrite_compiler(root: XmlElement) -> None:

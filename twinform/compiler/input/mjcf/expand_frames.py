@@ -4,7 +4,7 @@ The copies of a replicate have a number behind their names. What refers to somet
 as a sensor, is copied with it. How much comes of all copies is counted before anything is copied.
 """
 
-from collections.abc import Container, Iterable, Iterator
+from collections.abc import Iterator
 from copy import deepcopy
 from typing import NamedTuple, cast
 
@@ -12,6 +12,7 @@ from lxml import etree
 
 from twinform.compiler.input.mjcf.canonical_values import rotation_of
 from twinform.compiler.input.mjcf.compiler_settings import CompilerSettings
+from twinform.compiler.input.mjcf.copy_followers import Followers, TooManyCopiesError
 from twinform.compiler.input.mjcf.element_findings import ElementFindings
 from twinform.compiler.input.mjcf.number_lists import Numbers, number_text, numbers_of
 from twinform.compiler.input.mjcf.quaternions import (
@@ -23,18 +24,13 @@ from twinform.compiler.input.mjcf.quaternions import (
     rotate,
     unit,
 )
-from twinform.compiler.input.mjcf.references import KINDS, names_in, own_references, references_in, rename
+from twinform.compiler.input.mjcf.references import KINDS, names_in, rename
 from twinform.compiler.input.size_limits import LIFTED_BY_TAGS
 from twinform.diagnostics import rules
 from twinform.schemas import XmlElement
 
 _WRAPPERS = ("frame", "replicate")
-_FOLLOWING = ("contact", "tendon", "equality", "actuator", "sensor", "custom")
-"""The sections whose elements are copied with what they refer to, each behind those that it may refer to."""
-_NAMED_BY_SECTION = {"tendon": "tendon", "actuator": "actuator"}
 _POSED = frozenset({"body", "geom", "site", "camera", "frame", "flexcomp", "attach"})
-_HELD_TOGETHER = frozenset({"connect", "weld", "joint", "tendon"})
-_KINDS_OF_BODIES = frozenset(KINDS.values())
 _BEFORE = etree.XPath("preceding::*/@name | ancestor::*/@name")
 _SCALES = ("scale", "massscale")
 
@@ -68,15 +64,16 @@ def is_too_large(root: XmlElement, findings: ElementFindings, most: int) -> bool
     return False
 
 
-def expand_frames(root: XmlElement, settings: CompilerSettings, findings: ElementFindings) -> None:
-    """Put what is in frames and replicates in their places, the innermost first."""
+def expand_frames(root: XmlElement, settings: CompilerSettings, findings: ElementFindings, most: int) -> None:
+    """Put what is in frames and replicates in their places, the innermost first; `most` copies come with them."""
+    followers = Followers(root, most) if next(root.iter("replicate"), None) is not None else None
     for worldbody in root.iterchildren("worldbody"):
         wrappers = [element for _, element in etree.iterwalk(worldbody, events=("end",), tag=_WRAPPERS)]
         for wrapper in wrappers:
             if wrapper.tag == "frame":
                 _expand_frame(wrapper, findings)
-            else:
-                _expand_replicate(wrapper, root, settings, findings)
+            elif followers is not None:
+                _expand_replicate(wrapper, followers, settings, findings)
 
 
 def _expand_frame(frame: XmlElement, findings: ElementFindings) -> None:
@@ -91,9 +88,9 @@ def _expand_frame(frame: XmlElement, findings: ElementFindings) -> None:
 
 
 def _expand_replicate(
-    replicate: XmlElement, root: XmlElement, settings: CompilerSettings, findings: ElementFindings
+    replicate: XmlElement, followers: Followers, settings: CompilerSettings, findings: ElementFindings
 ) -> None:
-    count = _count(replicate)
+    count = _count(replicate) if len(replicate) else 0
     for joint in replicate.iterchildren("joint", "freejoint"):
         message = "a joint may not stand in <replicate>, which would give its body several ones"
         findings.report(rules.JOINTS_OF_A_BODY, joint, message, help="write a <body> around it")
@@ -112,7 +109,11 @@ def _expand_replicate(
         pose = pose.of(step)
     before = _NamesBefore(replicate)
     if names:
-        copy_followers(root, names, suffixes, before)
+        try:
+            followers.copy(names, suffixes, before)
+        except TooManyCopiesError:
+            message = "the copies of what refers to this <replicate> are too many"
+            findings.report(rules.OVERSIZED_FILE, replicate, message, help=LIFTED_BY_TAGS)
     _replace(replicate, copies)
 
 
@@ -123,49 +124,6 @@ def add_to_names(element: XmlElement, names: dict[str, set[str]], before: str, b
         if name and (str(each.tag) in KINDS or each.tag == "frame"):
             each.set("name", f"{before}{name}{behind}")
     rename(element, names, lambda name: f"{before}{name}{behind}")
-
-
-def copy_followers(
-    root: XmlElement, names: dict[str, set[str]], suffixes: Iterable[str], before: Container[str]
-) -> None:
-    """Copy the elements of other sections that refer to what was copied, once for each suffix, and take them out.
-
-    All else that such an element refers to has to be among the names `before` the copies. As in MuJoCo, others are
-    not copied, and constraints between what was copied and anything else are left out.
-    """
-    known = {kind: set(each) for kind, each in names.items()}
-    followers: list[tuple[XmlElement, list[XmlElement]]] = []
-    for section in (section for tag in _FOLLOWING for section in root.iterchildren(tag)):
-        found = [each for each in _elements(section) if _follows(each, known) and _can_follow(each, known, before)]
-        followers.append((section, found))
-        kind = _NAMED_BY_SECTION.get(str(section.tag))
-        if kind:
-            known.setdefault(kind, set()).update(name for each in found if (name := each.get("name")))
-    for suffix in suffixes:
-        for section, found in followers:
-            for each in found:
-                if _is_whole(each, known):
-                    copy = deepcopy(each)
-                    if copy.get("name"):
-                        copy.set("name", f"{copy.get('name')}{suffix}")
-                    rename(copy, known, lambda name, suffix=suffix: f"{name}{suffix}")
-                    section.append(copy)
-    for section, found in followers:
-        for each in found:
-            section.remove(each)
-
-
-def _follows(element: XmlElement, names: dict[str, set[str]]) -> bool:
-    """Whether an element refers to one of some names."""
-    return any(each.name in names.get(each.kind, ()) for each in references_in(element))
-
-
-def _can_follow(element: XmlElement, names: dict[str, set[str]], before: Container[str]) -> bool:
-    """Whether all that an element refers to is copied, or known when the copies are made."""
-    if element.tag in _HELD_TOGETHER:
-        return True
-    of_bodies = (each for each in references_in(element) if each.kind in _KINDS_OF_BODIES)
-    return all(each.name in names.get(each.kind, ()) or each.name in before for each in of_bodies)
 
 
 class _NamesBefore:
@@ -180,13 +138,6 @@ class _NamesBefore:
             before = cast("list[str]", _BEFORE(self._element))
             self._found = frozenset(["world", *map(str, before)])
         return name in self._found
-
-
-def _is_whole(element: XmlElement, names: dict[str, set[str]]) -> bool:
-    """Whether all that a constraint holds together was copied: MuJoCo leaves others out."""
-    if element.tag not in _HELD_TOGETHER:
-        return True
-    return all(each.name in names.get(each.kind, ()) for each in own_references(element))
 
 
 def place_in(element: XmlElement, pose: FramePose) -> None:

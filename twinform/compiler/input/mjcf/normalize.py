@@ -12,7 +12,7 @@ from twinform.compiler.input.mjcf.check_bodies import check_bodies
 from twinform.compiler.input.mjcf.check_references import check_names, check_references
 from twinform.compiler.input.mjcf.check_relations import check_relations
 from twinform.compiler.input.mjcf.check_shapes import check_notations, check_shapes
-from twinform.compiler.input.mjcf.compiler_settings import CompilerSettings, rewrite_compiler
+from twinform.compiler.input.mjcf.compiler_settings import CompilerSettings, report_sequences, rewrite_compiler
 from twinform.compiler.input.mjcf.default_classes import DefaultClasses
 from twinform.compiler.input.mjcf.element_findings import ElementFindings, numbered_copy, take_numbers_out
 from twinform.compiler.input.mjcf.expand_frames import expand_frames, is_too_large
@@ -35,7 +35,7 @@ def normalize(root: XmlElement, context: Context, load_options: LoadOptions) -> 
     settings = prepare(copy, findings, attaching)
     if is_too_large(copy, findings, load_options.limits.tags):
         return None
-    expand_frames(copy, settings, findings)
+    expand_frames(copy, settings, findings, load_options.limits.tags)
     rewrite_compiler(copy)
     check_canonical(copy, findings)
     take_numbers_out(copy)
@@ -45,6 +45,7 @@ def normalize(root: XmlElement, context: Context, load_options: LoadOptions) -> 
 def prepare(root: XmlElement, findings: ElementFindings, attaching: Attaching) -> CompilerSettings:
     """Make all canonical in a tree but its frames and replicates, and return the settings of its compiler."""
     settings = CompilerSettings.of(root)
+    report_sequences(root, findings)
     DefaultClasses.of(root, findings).merge_into(root)
     for section in list(root.iterchildren("default")):
         root.remove(section)
