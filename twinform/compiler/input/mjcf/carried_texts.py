@@ -38,6 +38,7 @@ def take_texts(root: XmlElement, context: Context) -> tuple[CarriedText, ...]:
 
 
 def _read(text: XmlElement, context: Context) -> CarriedText | None:
+    # MuJoCo saves data as the content of the element.
     written = text.get("name") or ""
     name = parse_text_name(written)
     source = Source(context.file, text.sourceline or 0, None, f"mujoco/custom/text[@name='{written}']", None)
@@ -45,7 +46,7 @@ def _read(text: XmlElement, context: Context) -> CarriedText | None:
         report_stale(context.sink, f"{written!r} is no carrier of a kind that there is", source)
         return None
     try:
-        node = read_node(text.get("data") or "", name.kind, source)
+        node = read_node(text.get("data") or text.text or "", name.kind, source)
     except (CarrierError, ValueError) as error:
         report_stale(context.sink, f"{written!r} cannot be read: {error}", source)
         return None

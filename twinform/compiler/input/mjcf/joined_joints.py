@@ -11,13 +11,20 @@ from twinform.passes.carriers.mjcf_texts import LOOP
 from twinform.passes.carriers.partial_nodes import written_names
 
 
-def join_joints(model: Model, partials: Iterable[Joint]) -> Model:
-    """The model with one joint for the chain of those that a carrier names, as long as they are still one."""
+def join_joints(model: Model, partials: Iterable[Joint]) -> tuple[Model, list[Joint]]:
+    """The model with one joint for the chain of those that a carrier names, as long as they are still one.
+
+    Returned with it are the partial joints that stand for something else by now.
+    """
+    left: list[Joint] = []
     for partial in partials:
         names = written_names(partial)
         if len(names) > 1 and find_annotation(partial, LOOP) is None:
-            model = _joined(model, partial, names)
-    return model
+            joined = _joined(model, partial, names)
+            if joined is model:
+                left.append(partial)
+            model = joined
+    return model, left
 
 
 def _joined(model: Model, partial: Joint, names: list[str]) -> Model:
@@ -29,6 +36,8 @@ def _joined(model: Model, partial: Joint, names: list[str]) -> Model:
     if not all(_is_bare(link) for link in model.links if link.name in between):
         return model
     last = chain[-1]
+    if any(each.pose != last.pose for each in chain) or (partial.type == "screw" and not _is_led(chain[0])):
+        return model
     axes = {"axis": chain[0].axis, "axis2": last.axis}
     if partial.type == "screw":
         axes = {"axis": last.axis, "axis2": None}
@@ -52,6 +61,12 @@ def _led(mimic: Mimic, names: list[str], partial: Joint) -> Mimic:
         return mimic
     second = partial.type in TWO_AXES and mimic.joint == names[-1]
     return mimic.copy(joint=partial.name, axis="axis2" if second else None)
+
+
+def _is_led(slide: Joint) -> bool:
+    """Whether a slide only follows the turn of a screw."""
+    axis = slide.axis
+    return axis is not None and axis.mimic is not None and axis.limit is None and axis.dynamics is None
 
 
 def _pitch(partial: Joint, slide: Joint) -> dict[str, float]:

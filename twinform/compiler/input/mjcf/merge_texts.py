@@ -120,7 +120,10 @@ class _Merged:
         back = sensors_back(self.links, self.joints, self.world, self.root, self.sink)
         self.links, self.joints, self.world, self.parts = back
         model = without_parts_of_sensors(model, self.parts)
-        model = join_joints(model, self.joints)
+        model, left = join_joints(model, self.joints)
+        for each in left:
+            self._stale(f"joint {each.name!r} is no joint of type {each.type} any more", each)
+        self.joints = [each for each in self.joints if each not in left]
         model = self._attached(self._merged(self._with_loops(model)))
         model = without_assets(without_usual(model), self.spellings.agreed)
         for stale in self.merging.stale:

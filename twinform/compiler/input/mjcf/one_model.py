@@ -21,7 +21,7 @@ def one_model(document: Document, *, is_free: bool) -> Model:
     frames: list[Frame] = [*(world.frames if world else ())]
     opaque: list[Opaque] = [*document.opaque, *(world.opaque if world and not _is_written_world(world) else ())]
     for each in models:
-        children = {joint.child for joint in each.joints}
+        children = {joint.child for joint in each.joints if joint.parent != WORLD}
         roots = [link for link in each.links if link.name not in children]
         links += [_placed(link, each.pose) if link in roots else link for link in each.links]
         if each.static or not (world or is_free):

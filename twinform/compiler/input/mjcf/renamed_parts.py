@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from twinform.ir import Format, Frame, Joint, Link, Model
 from twinform.ir.scopes import SCOPE
 from twinform.passes.carriers.annotations import MADE_NAME, find_annotation, is_synthesized, without_annotation
+from twinform.passes.carriers.mjcf_texts import LOOP
 from twinform.passes.carriers.partial_nodes import written_name, written_names
 from twinform.passes.legalise.changed_names import NAME, Names, renamed
 from twinform.passes.shared.nodes import unique_name
@@ -70,9 +71,10 @@ def _name_hidden(model: Model, partials: Sequence[Joint], names: Names) -> None:
 
 def _name_fixed(model: Model, partials: Sequence[Joint], names: Names) -> None:
     """Name the fixed joints, by the links that they hold."""
-    fixed = {each.child: each.name for each in partials if each.type == "fixed"}
+    tree = (each for each in partials if find_annotation(each, LOOP) is None)
+    fixed = {each.child: each.name for each in tree if each.type == "fixed"}
     for joint in model.joints:
         child = names.get(("link", joint.child or ""), joint.child)
         old = fixed.get(child)
-        if joint.type == "fixed" and old is not None:
+        if joint.type == "fixed" and old is not None and ("joint", joint.name) not in names:
             names["joint", joint.name] = old

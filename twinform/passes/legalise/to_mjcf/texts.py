@@ -441,7 +441,8 @@ class _Texts:
         """Enter what a partial element holds into the ledger; what is of our own namespace is in it already."""
         for child in xml:
             tag = str(child.tag)
-            if tag.startswith(f"{{{NAMESPACE}}}"):
+            # By its child a joint is known that has no name in MJCF, which says it as well.
+            if tag.startswith(f"{{{NAMESPACE}}}") or (tag == "child" and xml.find(_MARK) is not None):
                 continue
             if tag in _GROUPS or child.find(_MARK) is not None:
                 self._account(child, what, node)

@@ -1,0 +1,72 @@
+"""Carriers in MJCF in the hands of MuJoCo: it keeps them when it saves a model, and when it attaches one to another."""
+
+from pathlib import Path
+from random import Random
+from typing import Any
+
+import pytest
+
+from tests.profile import examples
+from twinform.compiler import convert
+
+mujoco: Any = pytest.importorskip("mujoco")
+pytest.importorskip("numpy")
+
+_CASES = Path("tests/cases")
+_INERTIAL = '<inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'
+_ARM = f"""
+<robot name="arm">
+  <link name="base">{_INERTIAL}</link>
+  <link name="hand">{_INERTIAL}</link>
+  <joint name="wrist" type="revolute">
+    <parent link="base"/><child link="hand"/><axis xyz="0 0 1"/>
+    <limit lower="-1" upper="1" effort="2" velocity="3"/>
+    <safety_controller k_velocity="4"/>
+  </joint>
+  <transmission name="drive"><type>simple</type><joint name="wrist"/><actuator name="motor"/></transmission>
+  <gazebo><plugin name="p" filename="q"><text>two
+lines &lt; three</text></plugin></gazebo>
+</robot>
+""".encode()
+
+
+def test_what_mujoco_saves_comes_home() -> None:
+    saved = mujoco.MjSpec.from_string(convert(_ARM, to="mjcf").text)
+    saved.compile()
+    back = convert(saved.to_xml().encode(), to="urdf").text
+    assert back == convert(convert(_ARM, to="mjcf").text.encode(), to="urdf").text
+    assert all(each in back for each in ('velocity="3"', 'k_velocity="4"', "<transmission", "two\nlines"))
+
+
+def test_what_is_attached_keeps_what_belongs_to_its_joints() -> None:
+    whole = mujoco.MjSpec()
+    part = mujoco.MjSpec.from_string(convert(_ARM, to="mjcf").text)
+    for side in ("left_", "right_"):
+        whole.attach(part.copy(), prefix=side, frame=whole.worldbody.add_frame(pos=(len(side), 0, 0)))
+    whole.compile()
+    back = convert(whole.to_xml().encode(), to="sdf").text
+    assert back.count("<velocity>3</velocity>") == len(("left", "right"))
+
+
+_EDITED = (
+    "convert/ball_and_screw.sdf",
+    "convert/universal_joint.sdf",
+    "edits/nested.sdf",
+    "companions/lifter/lifter_description/urdf/lifter.urdf",
+    "whole/links.sdf",
+)
+
+
+@pytest.mark.parametrize("name", _EDITED)
+def test_edits_of_mjcf_win(name: str) -> None:
+    from testbed.edits.mjcf_edits import draw_mjcf_edit  # noqa: PLC0415 - it needs MuJoCo
+    from testbed.edits.mjcf_judging import judge_mjcf  # noqa: PLC0415 - see above
+
+    source = _CASES / name
+    to = source.suffix.removeprefix(".")
+    text = convert(source, to="mjcf").text.encode()
+    assert judge_mjcf(text, to).outcome == "same"
+    for seed in range(examples(0.2).max_examples):
+        edit, edited = draw_mjcf_edit(text, Random(seed))
+        verdict = judge_mjcf(edited, to)
+        assert verdict.outcome != "wrong", f"{edit}: {verdict.reason}"

@@ -1,0 +1,84 @@
+"""There and back through MJCF: on models that Hypothesis makes up, all that MJCF does not say comes back."""
+
+import pytest
+from hypothesis import assume, given
+
+from tests.profile import examples
+from tests.roundtrip.test_generated import text_of
+from twinform.compiler import CompileError, convert
+from twinform.ir import Document
+from twinform.testing import strategies
+from twinform.testing.properties import RoundTrip
+
+_SETTINGS = examples(0.5)
+_JOINTS = ("revolute", "continuous", "prismatic", "fixed")
+
+
+def _mismatches(model: Document) -> list[str]:
+    trip = RoundTrip.of(text_of(model).encode(), model)
+    try:
+        there = convert(trip.text, to="mjcf").text
+    except CompileError as error:
+        # MuJoCo reads no body that moves and weighs nothing.
+        assume({each.rule.name for each in error.diagnostics if each.is_error} != {"massless-link"})
+        raise
+    return [each.message for each in trip.mismatches(trip.back(there))]
+
+
+@_SETTINGS
+@given(strategies.robots(max_links=5, joint_types=_JOINTS))
+def test_a_robot_comes_back_from_mjcf(robot: Document) -> None:
+    assert _mismatches(robot) == []
+
+
+@_SETTINGS
+@given(strategies.sdf_models(max_links=5))
+def test_a_model_comes_back_from_mjcf(model: Document) -> None:
+    assert _mismatches(model) == []
+
+
+_INERTIAL = '<inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'
+_ARM = f"""
+<robot name="arm">
+  <link name="base">{_INERTIAL}</link>
+  <link name="hand">{_INERTIAL}</link>
+  <joint name="wrist" type="revolute">
+    <parent link="base"/><child link="hand"/><axis xyz="0 0 1"/>
+    <limit lower="-1" upper="1" effort="2" velocity="3"/>
+    <safety_controller k_velocity="4"/>
+  </joint>
+</robot>
+""".encode()
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "gone"),
+    [
+        ('range="-1 1"', 'range="-1 2"', 'upper="1"'),
+        ('axis="0 0 1"', 'axis="0 1 0"', 'xyz="0 0 1"'),
+        ('actuatorfrcrange="-2 2"', 'actuatorfrcrange="-5 5"', 'effort="2"'),
+        ('mass="1"', 'mass="7"', 'value="1"'),
+    ],
+)
+def test_an_edit_of_mjcf_wins_and_what_it_does_not_say_stays(old: str, new: str, gone: str) -> None:
+    there = convert(_ARM, to="mjcf").text
+    assert old in there
+    back = convert(there.replace(old, new).encode(), to="urdf").text
+    assert gone not in back
+    assert 'velocity="3"' in back
+    assert 'k_velocity="4"' in back
+
+
+def test_what_belongs_to_a_joint_that_was_renamed_is_stale() -> None:
+    there = convert(_ARM, to="mjcf").text.replace('<joint name="wrist"', '<joint name="elbow"')
+    made = convert(there.encode(), to="urdf")
+    assert "stale-carrier" in {each.rule.name for each in made.diagnostics}
+    assert '<joint name="elbow"' in made.text
+    assert "k_velocity" not in made.text
+
+
+def test_without_carriers_nothing_of_ours_is_written_and_the_ledger_has_it() -> None:
+    made = convert(_ARM, to="mjcf", carriers=False)
+    assert "twinform" not in made.text
+    dropped = [each.message for each in made.ledger.entries if each.fate.value == "dropped"]
+    assert "<velocity> of joint 'wrist' has no equivalent in MJCF" in dropped
