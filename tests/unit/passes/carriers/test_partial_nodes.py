@@ -77,7 +77,7 @@ _LINK = Link(
     inertial=Inertial(pose=Pose(xyz=(1, 0, 0)), mass=2, opaque=(Opaque(element=Element(name="density", text="3")),)),
     visuals=(
         Visual(name="seen", geometry=Geometry(shape=Box(size=(1, 2, 3))), plugins=(Plugin(name="p"),)),
-        Visual(name="tip", geometry=Geometry(shape=Cone(radius=1, length=2))),
+        Visual(name="tip", plugins=(Plugin(name="q"),)),
     ),
 )
 
