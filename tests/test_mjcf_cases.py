@@ -1,6 +1,7 @@
 """The case files of MJCF: what is reported where a model is converted, and what it becomes."""
 
 from pathlib import Path
+from typing import Literal
 
 import pytest
 
@@ -49,9 +50,24 @@ def test_every_part_is_in_the_mjcf_or_in_the_ledger(path: Path) -> None:
     assert [f"{each.location.path}: {each.text}" for each in unaccounted] == []
 
 
-def _converted(path: Path) -> twinform.Conversion | None:
+_MJCF = sorted([*(_CASES.parent / "mjcf").glob("*.mjcf"), *_CASES.glob("*.expected.xml")])
+
+
+@pytest.mark.parametrize("to", ["sdf", "urdf"])
+@pytest.mark.parametrize("path", _MJCF, ids=lambda path: path.name)
+def test_every_part_of_mjcf_is_in_the_result_or_in_the_ledger(path: Path, to: Literal["sdf", "urdf"]) -> None:
+    made = _converted(path, to)
+    if made is None or path.name == "replicates.mjcf":  # what names a part that is copied names the copies
+        return
+    assert made.source is not None
+    found = audit(made.source, made.text, made.ledger)
+    assert [f"{each.location.path}: {each.text}" for each in found.unaccounted] == []
+    assert made.ledger.expressed + sum(each.weight for each in made.ledger.entries) == found.total
+
+
+def _converted(path: Path, to: Literal["sdf", "urdf", "mjcf"] = "mjcf") -> twinform.Conversion | None:
     """The conversion of a case; None where it is refused."""
     try:
-        return twinform.convert(path, to="mjcf", comments=False)
+        return twinform.convert(path, to=to, comments=False)
     except twinform.CompileError:
         return None

@@ -12,6 +12,7 @@ from typing import NamedTuple, Self
 
 from lxml import etree
 
+from twinform.compiler.audit_mjcf import COMPUTED, KINDS, carried_in_mjcf, implied_in_mjcf, name_in_sdf
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Fate, Ledger, Location
 from twinform.ir.defaults import UNLIMITED
@@ -20,7 +21,6 @@ from twinform.lazy import lazy_pattern
 from twinform.passes.carriers.annotations import MIMIC, SYNTHESIZED
 from twinform.passes.carriers.carriers import NAMESPACE
 from twinform.passes.carriers.joint_chains import CHAIN, PART
-from twinform.passes.carriers.mjcf_texts import parse_data, parse_text_name
 from twinform.passes.carriers.token_mass import TOKEN_MASS
 from twinform.passes.legalise.changed_names import NAME, SCOPED_NAME
 from twinform.passes.legalise.to_sdf.root_masses import UNSAID
@@ -43,14 +43,6 @@ _IMPLIED_BY = {"frame": "fixed"}
 _OPPOSITES = {"turnGravityOff": {"0.0": "1.0", "1.0": "0.0"}}
 _SYNONYMS = {"revolute": "continuous", "continuous": "revolute", "ball": "spherical"}
 """Words for which the other format may have another one: a continuous joint may be a revolute one without limits."""
-_OF_MJCF = {
-    ("joint", "hinge"): ("revolute", "continuous", "universal", "revolute2", "screw"),
-    ("joint", "slide"): ("prismatic",),
-    ("joint", "ball"): ("ball", "spherical"),
-    ("worldbody", ""): ("world", "fixed"),
-}
-"""Words that an element of MJCF stands for, by its name and type: a body in a body is fixed to it."""
-_WITH_HALF_SIZES = frozenset({"geom", "hfield"})
 _TRUTHS = {"true": "1.0", "yes": "1.0", "false": "0.0", "no": "0.0"}
 _PREDICATE = lazy_pattern(r"\[[^]]*+\]?|\{[^}]*+\}?|(?<=[/@])[\w.-]+:")
 _Place = tuple[int, str]
@@ -116,6 +108,8 @@ def fates(source: XmlElement, result: str, ledger: Ledger) -> Iterator[PartFate]
     inside, outside = _words_of(made)
     folded = Folded.of(source, made)
     outside |= folded.parts
+    if source.tag == "mujoco":  # in which a word says what an element is in the others
+        outside |= frozenset(_local(str(each.tag)) for each in made.iter("*"))
     listed, noted = _places(ledger, counted=True), _places(ledger, counted=False)
     for part, note in zip(_parts(source, listed), _parts(source, noted), strict=True):
         if part.fate is not None:
@@ -148,12 +142,14 @@ class _Piece:
     attribute: str | None
     words: frozenset[str]
     fate: Fate | None
+    of_mjcf: bool = False
 
     @property
     def computed(self) -> bool:
         if self.attribute == "version" and self.element.getparent() is None:
             return True  # it is about the format of the file, and the result has its own
-        return str(self.element.tag) in _COMPUTED and all(map(_is_number, self.words))
+        is_computed = self.attribute in COMPUTED if self.of_mjcf else str(self.element.tag) in _COMPUTED
+        return is_computed and all(map(_is_number, self.words))
 
 
 def _parts(root: XmlElement, fates: dict[_Place, Fate]) -> Iterator[_Piece]:
@@ -162,10 +158,11 @@ def _parts(root: XmlElement, fates: dict[_Place, Fate]) -> Iterator[_Piece]:
     An entry may have the line of the element or of one around it, where the converter does not know better.
     """
     stack: list[tuple[XmlElement, Fate | None, str, tuple[int, ...]]] = [(root, None, "", ())]
+    of_mjcf = root.tag == "mujoco"
     while stack:
         element, above, around, lines = stack.pop()
         ours = str(element.tag).startswith(_OURS)  # which means something to us alone, but for what is in it
-        if ours and not len(element):
+        if (ours and not len(element)) or carried_in_mjcf(element) is not None:
             continue
         path, lines = f"{around}/{_local(str(element.tag))}", (element.sourceline or 0, *lines)
         fate = above or _fate_at(path, lines, fates)
@@ -174,12 +171,14 @@ def _parts(root: XmlElement, fates: dict[_Place, Fate]) -> Iterator[_Piece]:
             continue
         opposite = _OPPOSITES.get(_local(str(element.tag)), {})
         words = frozenset(opposite.get(word, word) for word in _words(element.text or ""))
-        yield _Piece(element, None, words, fate or (_fate_at(f"{path}/text()", lines, fates) if words else None))
+        own = _fate_at(f"{path}/text()", lines, fates) if words else None
+        yield _Piece(element, None, words, fate or own, of_mjcf)
         for name, value in element.items():
             if str(name).startswith(_OURS):
                 continue
-            own = _fate_at(f"{path}/@{_local(str(name))}", lines, fates)
-            yield _Piece(element, str(name), frozenset(_words(str(value))), fate or own)
+            word = name_in_sdf(element, str(name)) if of_mjcf else _local(str(name))
+            own = _fate_at(f"{path}/@{word}", lines, fates)
+            yield _Piece(element, str(name), frozenset(_words(str(value))), fate or own, of_mjcf)
 
 
 def _fate_at(path: str, lines: tuple[int, ...], fates: dict[_Place, Fate]) -> Fate | None:
@@ -202,11 +201,11 @@ def _words_of(result: XmlElement) -> tuple[frozenset[str], frozenset[str]]:
     stack = [(result, outside)]
     while stack:
         element, words = stack.pop()
-        if (carried := _carried_in_mjcf(element)) is not None:
+        if (carried := carried_in_mjcf(element)) is not None:
             stack.append((carried, inside))
             continue
         words = inside if str(element.tag).startswith(_OURS) else words
-        words.update(_implied_in_mjcf(element))
+        words.update(implied_in_mjcf(element))
         written = frozenset(_words(element.text or ""))
         opposites = _OPPOSITES.get(_local(str(element.tag)), {})
         words.update(written, (opposites[word] for word in written if word in opposites))
@@ -216,20 +215,6 @@ def _words_of(result: XmlElement) -> tuple[frozenset[str], frozenset[str]]:
             (inside if str(name).startswith(_OURS) else words).update(_words(str(value)))
         stack += [(child, words) for child in element if isinstance(child.tag, str)]
     return frozenset(inside), frozenset(outside)
-
-
-def _carried_in_mjcf(element: XmlElement) -> XmlElement | None:
-    """Return what a carrier of MJCF holds, a text with XML in it; None for all other elements."""
-    if element.tag != "text" or parse_text_name(element.get("name", "")) is None:
-        return None
-    return parse_data(element.get("data", ""))
-
-
-def _implied_in_mjcf(element: XmlElement) -> Iterator[str]:
-    """Yield the words of SDF and URDF that an element of MJCF implies: types of joints, and whole for half sizes."""
-    yield from _OF_MJCF.get((str(element.tag), element.get("type", "")), ())
-    if element.tag in _WITH_HALF_SIZES:
-        yield from (repr(2 * float(number)) for number in element.get("size", "").split())
 
 
 def _words(text: str) -> Iterable[str]:
@@ -251,7 +236,7 @@ def _spelt(word: str) -> str:
 
 def _is_implied(word: str, words: frozenset[str]) -> bool:
     """Whether a word has a synonym in the result, or is a name that was synthesized for a shape or its material."""
-    if _SYNONYMS.get(word) in words:
+    if _SYNONYMS.get(word) in words or not words.isdisjoint(KINDS.get(word, ())):
         return True
     name = _SHAPE_NAME.fullmatch(word)
     return (name is not None and name[1] in words) or _is_synthesized_material(word, words)

@@ -199,6 +199,10 @@ def _convert_document(
         raise CompileError(tuple(sink.diagnostics))
     # The ledger counts what is preserved by what is left over, so that a fate which nobody wrote
     # down shows as a false "preserved" in the audit.
+    if loaded.tree is not None and loaded.tree.tag == "mujoco":
+        from twinform.compiler.settle_ledger import settle  # noqa: PLC0415 - few files are MJCF
+
+        sink.entries[:] = settle(sink.entries, loaded.tree)
     lost = sum(entry.weight for entry in sink.entries)
     ledger = Ledger(max(0, loaded.size - lost), sink.traced_entries())
     origin = loaded.tree if loaded.content is None else loaded.content

@@ -157,7 +157,8 @@ def _read_text(text: bytes, sink: DiagnosticSink, load_options: LoadOptions, all
     if context.broken:
         allowances.put_back(sink)
     ordered = tuple(sorted(sink.diagnostics, key=lambda each: each.location.line))
-    tree = tree if load_options.keep_tree else None
+    is_mjcf = tree is not None and tree.tag == "mujoco"  # whose ledger is settled by its parts
+    tree = tree if load_options.keep_tree or is_mjcf else None
     return LoadResult(
         sink.file,
         None if context.broken else document,

@@ -10,6 +10,7 @@ from twinform.compiler.input.mjcf.carried_texts import take_texts
 from twinform.compiler.input.mjcf.lower import lower
 from twinform.compiler.input.mjcf.merge_texts import merge_texts
 from twinform.compiler.input.mjcf.normalize import normalize
+from twinform.compiler.input.mjcf.note_notation import note_notation
 from twinform.ir import Document
 from twinform.schemas import Context, XmlElement
 
@@ -24,5 +25,6 @@ def lower_mjcf(root: XmlElement, context: Context, load_options: LoadOptions) ->
     canonical = normalize(root, context, load_options)
     if canonical is None or context.sink.has_errors:
         return None
+    note_notation(root, context.sink)
     texts = take_texts(canonical, context)
     return merge_texts(lower(canonical, context, load_options, root), texts, canonical, context.sink)

@@ -34,7 +34,8 @@ def lower_option(options: tuple[Piece, ...]) -> WorldSettings:
     made = [physics, _text("magnetic_field", magnetic)]
     if any(wind):
         made.append(Element.unchecked(name="wind", children=(_text("linear_velocity", wind),)))
-    return WorldSettings((x, y, z), tuple(Opaque.unchecked(element=each) for each in made))
+    where = options[-1].source if options else None
+    return WorldSettings((x, y, z), tuple(Opaque.unchecked(element=each, source=where) for each in made))
 
 
 def _last(options: tuple[Piece, ...], attribute: str) -> Numbers:

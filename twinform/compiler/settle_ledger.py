@@ -1,0 +1,73 @@
+"""Settles a ledger about MJCF: each element and attribute of the file counts once, with its worst fate.
+
+A shape of MJCF becomes a collision and a visual, what only MJCF says is carried before somebody leaves out what carries
+it, and passes count the elements that they see, which are those of SDF. So entries about one place may count more than
+the place has.
+"""
+
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
+
+from twinform.compiler.audit import bare_path
+from twinform.compiler.audit_mjcf import name_in_sdf
+from twinform.diagnostics import Fate, LedgerEntry
+from twinform.schemas import XmlElement
+
+_WORST_FIRST = (Fate.DROPPED, Fate.CARRIED, Fate.APPROXIMATED)
+_Part = tuple[XmlElement, str]
+"""An element, and the name of one of its attributes, or nothing for the element itself."""
+
+
+def settle(entries: Sequence[LedgerEntry], root: XmlElement) -> tuple[LedgerEntry, ...]:
+    """Return the entries in their order, with weights that together count each part of the tree at most once."""
+    elements = _elements_by_place(root)
+    taken: set[_Part] = set()
+    weights = [entry.weight for entry in entries]
+    for number in sorted(range(len(entries)), key=lambda number: _WORST_FIRST.index(entries[number].fate)):
+        entry = entries[number]
+        free = (part for part in _parts_of(entry, elements) if part not in taken)
+        mine = [part for part, _ in zip(free, range(entry.weight), strict=False)]
+        taken.update(mine)
+        weights[number] = len(mine)
+    return tuple(
+        entry if entry.weight == weight else replace(entry, weight=weight)
+        for entry, weight in zip(entries, weights, strict=True)
+    )
+
+
+def _elements_by_place(root: XmlElement) -> dict[tuple[int, str], list[XmlElement]]:
+    """Return the elements of a tree by their lines and paths without names."""
+    found: dict[tuple[int, str], list[XmlElement]] = defaultdict(list)
+    stack = [(root, f"/{root.tag}")]
+    while stack:
+        element, path = stack.pop()
+        found[element.sourceline or 0, path].append(element)
+        stack += [(child, f"{path}/{child.tag}") for child in element if isinstance(child.tag, str)]
+    return found
+
+
+def _parts_of(entry: LedgerEntry, elements: dict[tuple[int, str], list[XmlElement]]) -> Iterator[_Part]:
+    """Yield the parts that an entry may be about: those of its element, and then of what is in it."""
+    path, _, attribute = bare_path(entry.location.path).partition("/@")
+    found = elements.get((entry.location.line, path), ())
+    if attribute:
+        names = ((each, str(name)) for each in found for name in each.keys())  # noqa: SIM118 - see `_own_parts`
+        yield from ((each, name) for each, name in names if name_in_sdf(each, name) == attribute)
+        return
+    for each in found:
+        yield from _own_parts(each)
+    for each in found:
+        # the shapes of the world itself are an entry, and the bodies in it are none of them
+        inside = (child for child in each if each.tag != "worldbody" or child.tag != "body")
+        yield from (part for child in inside for below in _elements(child) for part in _own_parts(below))
+
+
+def _elements(element: XmlElement) -> Iterable[XmlElement]:
+    return element.iter("*")
+
+
+def _own_parts(element: XmlElement) -> Iterator[_Part]:
+    yield element, ""
+    for name in element.keys():  # noqa: SIM118 - an element of lxml is no dictionary
+        yield element, str(name)
