@@ -220,7 +220,7 @@ rgba fog haze force inertia joint actuator actuatornegative actuatorpositive com
 flag constraint equality frictionloss limit contact spring damper gravity clampctrl warmstart filterparent actuation refsafe sensor midphase nativeccd island eulerdamp autoreset multiccd override energy fwdinv invdiscrete sleep diagexact ipc speculative passive sensornoise
 lengthrange mode useexisting uselimit accel maxforce timeconst timestep inttotal interval tolrange
 """
-OPAQUE = frozenset({"composite", "text"})
+OPAQUE = frozenset({"composite"})
 """Elements with contents of their own, such as plugins, in which nothing is known."""
 
 NUMERIC_TEXTS = frozenset(_TEXTS.split())
