@@ -14,6 +14,7 @@ from twinform.ir import (
     Axis,
     Collision,
     Document,
+    Dynamics,
     Element,
     Format,
     Frame,
@@ -24,6 +25,7 @@ from twinform.ir import (
     Limit,
     Link,
     Mesh,
+    Mimic,
     Model,
     Node,
     Opaque,
@@ -71,6 +73,7 @@ _GROUPS = frozenset({"axis", "axis2", "limit", "dynamics", "surface"})
 """Elements that only group others: what is in them counts, and not they themselves."""
 _DIRECTED = frozenset({"revolute", "continuous", "prismatic", "universal", "revolute2", "screw"})
 """The types of joints whose axes MJCF says."""
+_OF_AXES = (Axis, Limit, Dynamics, Mimic)
 Shape = Visual | Collision
 Names = dict[tuple[type[Shape], str, str | None], str]
 """The names in MJCF of visuals and collisions, by the scoped name of the link and their own."""
@@ -207,6 +210,9 @@ class _Texts:
     def _said(self, node: Node) -> frozenset[str] | None:
         if isinstance(node, Light):
             return frozenset({EXISTENCE})
+        # A loop is held at points, which do not say how it turns there.
+        if isinstance(node, _OF_AXES) and self.joint is not None and self.joint.name in self.closing:
+            return None
         if isinstance(node, Limit) and self.joint is not None:
             return said_of_limit(node, self.joint)
         if isinstance(node, Axis) and self.joint is not None and self.joint.type not in _DIRECTED:
