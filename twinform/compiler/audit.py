@@ -13,6 +13,7 @@ from typing import NamedTuple, Self
 from lxml import etree
 
 from twinform.compiler.audit_mjcf import COMPUTED, KINDS, carried_in_mjcf, implied_in_mjcf, name_in_sdf
+from twinform.compiler.settle_ledger import bare_path
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Fate, Ledger, Location
 from twinform.ir.defaults import UNLIMITED
@@ -44,7 +45,6 @@ _OPPOSITES = {"turnGravityOff": {"0.0": "1.0", "1.0": "0.0"}}
 _SYNONYMS = {"revolute": "continuous", "continuous": "revolute", "ball": "spherical"}
 """Words for which the other format may have another one: a continuous joint may be a revolute one without limits."""
 _TRUTHS = {"true": "1.0", "yes": "1.0", "false": "0.0", "no": "0.0"}
-_PREDICATE = lazy_pattern(r"\[[^]]*+\]?|\{[^}]*+\}?|(?<=[/@])[\w.-]+:")
 _Place = tuple[int, str]
 """A line of the source, and the path of an element or attribute that begins on it."""
 _PUNCTUATION = str.maketrans(dict.fromkeys("/:,;", " "))
@@ -183,11 +183,6 @@ def _parts(root: XmlElement, fates: dict[_Place, Fate]) -> Iterator[_Piece]:
 
 def _fate_at(path: str, lines: tuple[int, ...], fates: dict[_Place, Fate]) -> Fate | None:
     return next((fate for line in lines if (fate := fates.get((line, path)))), None)
-
-
-def bare_path(path: str) -> str:
-    """Return a path without predicates and prefixes; the line of a part tells elements of one path apart."""
-    return _PREDICATE.sub("", path)
 
 
 def _local(name: str) -> str:

@@ -9,12 +9,13 @@ from collections import defaultdict
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 
-from twinform.compiler.audit import bare_path
 from twinform.compiler.audit_mjcf import name_in_sdf
 from twinform.diagnostics import Fate, LedgerEntry
+from twinform.lazy import lazy_pattern
 from twinform.schemas import XmlElement
 
 _WORST_FIRST = (Fate.DROPPED, Fate.CARRIED, Fate.APPROXIMATED)
+_PREDICATE = lazy_pattern(r"\[[^]]*+\]?|\{[^}]*+\}?|(?<=[/@])[\w.-]+:")
 _Part = tuple[XmlElement, str]
 """An element, and the name of one of its attributes, or nothing for the element itself."""
 
@@ -34,6 +35,11 @@ def settle(entries: Sequence[LedgerEntry], root: XmlElement) -> tuple[LedgerEntr
         entry if entry.weight == weight else replace(entry, weight=weight)
         for entry, weight in zip(entries, weights, strict=True)
     )
+
+
+def bare_path(path: str) -> str:
+    """Return a path without predicates and prefixes; the line of a part tells elements of one path apart."""
+    return _PREDICATE.sub("", path)
 
 
 def _elements_by_place(root: XmlElement) -> dict[tuple[int, str], list[XmlElement]]:
