@@ -121,3 +121,19 @@ def test_a_missing_mesh_is_an_error_and_nothing_is_written(tmp_path: Path) -> No
     done = _package(source, tmp_path / "made")
     assert (done.exit_code, (tmp_path / "made").exists()) == (1, False)
     assert "unpackaged-file" in done.output
+
+
+def test_textures_are_written_as_png(tmp_path: Path) -> None:
+    mujoco, image = _mujoco(), importlib.import_module("PIL.Image")
+    image.new("RGB", (4, 4), (200, 30, 30)).save(tmp_path / "wood.jpg")
+    (tmp_path / "r.urdf").write_text(
+        '<robot name="r"><material name="wood"><texture filename="wood.jpg"/></material><link name="a"><visual>'
+        '<geometry><box size="1 1 1"/></geometry><material name="wood"/></visual></link></robot>'
+    )
+    done = _package(tmp_path / "r.urdf", tmp_path / "made")
+    assert done.exit_code == 0, done.output
+    assert "unreadable-image" not in done.output
+    (tmp_path / "wood.jpg").unlink()
+    robot = mujoco.MjModel.from_xml_path(str(tmp_path / "made/model.xml"))
+    assert (robot.ntex, robot.nmat) == (1, 1)
+    assert abs(int(robot.tex_data[0]) - 200) < 8

@@ -13,6 +13,7 @@ from itertools import count
 from lxml import etree
 
 from twinform.compiler.packaging.collecting import Collection
+from twinform.compiler.packaging.images_as_png import ImagesAsPng
 from twinform.compiler.packaging.order import Built, Order
 from twinform.compiler.packaging.package import Content, Package, PackageLayout
 from twinform.passes import Pipeline
@@ -40,10 +41,10 @@ def build(order: Order, collection: Collection) -> Built:
 
 
 def _with_passes(order: Order) -> Order:
-    """Return the order with the pass that writes meshes in a format of MuJoCo."""
+    """Return the order with the passes that write meshes and images in formats of MuJoCo."""
     # Colors come from the material of a geom, and not from the file of its mesh.
     meshes = ConvertMeshes.model_validate({"for": "mujoco", "folder": ASSETS, "drop_appearance": True})
-    passes = Pipeline((*order.conversion.passes, meshes))
+    passes = Pipeline((*order.conversion.passes, meshes, ImagesAsPng.unchecked(folder=ASSETS)))
     return replace(order, conversion=replace(order.conversion, passes=passes))
 
 

@@ -24,7 +24,7 @@ from twinform.passes.mesh_jobs.mesh_files import RefusedMeshError
 
 _JOBS = {
     "count": "measuring", "convert": "mesh_making", "decimate": "mesh_making", "draw": "measuring",
-    "measure": "measuring", "simplify": "mesh_making", "surface": "measuring",
+    "image": "image_making", "measure": "measuring", "simplify": "mesh_making", "surface": "measuring",
 }  # fmt: skip
 """The module that has the function of a job, which has the name of the job."""
 _USD_JOBS = {"layer": "usd_jobs", "stage": "usd_jobs"}
@@ -32,7 +32,7 @@ _USD_JOBS = {"layer": "usd_jobs", "stage": "usd_jobs"}
 # A stage of a megabyte has 1,500 links, and takes a second to compose and to tell.
 _HEAVIER = {"layer": 8, "stage": 16}
 """How many times as long the reader of USD takes for a text as those of meshes, and how much more memory."""
-_LIBRARIES = frozenset({"coacd", "collada", "fast_simplification", "numpy", "pxr", "scipy", "trimesh"})
+_LIBRARIES = frozenset({"coacd", "collada", "fast_simplification", "numpy", "PIL", "pxr", "scipy", "trimesh"})
 """The import names of the libraries that the extra installs."""
 # Readers import these when they meet certain files, and could not do so once the process is
 # confined.
