@@ -47,7 +47,7 @@ def kept(node: Node) -> Iterator[Element]:
 @pytest.mark.parametrize("content", [_BODY, f'{_BODY}<light name="sun"/>', f'{_BODY}<site name="s"/>'])
 def test_a_file_with_one_tree_alone_is_a_model_of_its_name(content: str) -> None:
     document = lowered(content)
-    assert [each.name for each in document.models] == ["m"]
+    assert [(each.name, each.static) for each in document.models] == [("m", True)]
     assert not document.worlds
 
 
