@@ -104,6 +104,8 @@ def _check_sensor(sensor: XmlElement, kinds: Mapping[str, str], named: Named, fi
     target = named[limited].get(sensor.get(limited, "")) if limited else None
     if limited and target is not None and target.get("limited") != "true":
         _report_unfit(sensor, limited, f"<{tag}> is for a {limited} with limits, and this one has none", findings)
+    if tag == "rangefinder" and not any(name in sensor.attrib for name in ("site", "camera")):
+        findings.report(rules.MISSING_ATTRIBUTE, sensor, "<rangefinder> has no site and no camera", expected="@site")
     if tag in {"distance", "normal", "fromto"}:
         _check_pairs(sensor, findings)
 
