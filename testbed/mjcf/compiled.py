@@ -6,6 +6,7 @@ The URDF reader of MuJoCo may merge links, leave visuals out and change inertias
 import contextlib
 import importlib
 import tempfile
+import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -110,7 +111,9 @@ class Compiled:
         """The motion at positions and velocities, in the order of this model."""
         mujoco, model, data = self.mujoco, self.model, self.data
         data.qpos[:], data.qvel[:] = positions, velocities
-        mujoco.mj_forward(model, data)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            mujoco.mj_forward(model, data)
         mass = np.zeros((model.nv, model.nv))
         mujoco.mj_fullM(model, data, mass)
         poses = {model.body(i).name: _pose(data.xpos[i], data.xmat[i]) for i in range(1, model.nbody)}
@@ -171,7 +174,9 @@ def compile_mjcf(text: str, folder: str | None = None) -> Compiled:
     """
     mujoco: Any = importlib.import_module("mujoco")
     # it writes its warnings to a file in the working directory
-    with tempfile.TemporaryDirectory() as made, contextlib.chdir(made):
+    # It warns of axes that are parallel, which a model may have.
+    with tempfile.TemporaryDirectory() as made, contextlib.chdir(made), warnings.catch_warnings():
+        warnings.simplefilter("ignore")
         try:
             spec = mujoco.MjSpec.from_string(text)
             if folder is not None:
