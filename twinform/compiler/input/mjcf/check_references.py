@@ -36,6 +36,17 @@ def check_names(root: XmlElement, findings: ElementFindings) -> Named:
     return found
 
 
+def check_frame_names(root: XmlElement, findings: ElementFindings) -> None:
+    """Report names that two frames have, while there are frames in a tree."""
+    known: set[str] = set()
+    for frame in root.iter("frame"):
+        name = frame.get("name")
+        if name in known:
+            message = f"there is more than one frame called {name!r}"
+            findings.report(rules.DUPLICATE_NAME, frame, message, "@name", found=name)
+        known.update([name] if name else ())
+
+
 def check_references(root: XmlElement, named: Named, findings: ElementFindings) -> None:
     """Report what refers to nothing."""
     made_up = next(root.iter("flexcomp"), None) is not None  # it makes bodies, whose names are not known here

@@ -9,7 +9,7 @@ from twinform.compiler.input.load_options import LoadOptions
 from twinform.compiler.input.mjcf.attach_models import Attaching, main_file
 from twinform.compiler.input.mjcf.canonical_values import write_canonical_values
 from twinform.compiler.input.mjcf.check_bodies import check_bodies
-from twinform.compiler.input.mjcf.check_references import check_names, check_references
+from twinform.compiler.input.mjcf.check_references import check_frame_names, check_names, check_references
 from twinform.compiler.input.mjcf.check_relations import check_relations
 from twinform.compiler.input.mjcf.check_shapes import check_notations, check_shapes
 from twinform.compiler.input.mjcf.compiler_settings import CompilerSettings, report_sequences, rewrite_compiler
@@ -46,6 +46,7 @@ def prepare(root: XmlElement, findings: ElementFindings, attaching: Attaching) -
     """Make all canonical in a tree but its frames and replicates, and return the settings of its compiler."""
     settings = CompilerSettings.of(root)
     report_sequences(root, findings)
+    check_frame_names(root, findings)
     DefaultClasses.of(root, findings).merge_into(root)
     for section in list(root.iterchildren("default")):
         root.remove(section)

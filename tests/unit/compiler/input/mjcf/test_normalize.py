@@ -147,3 +147,20 @@ def _links(path: Path) -> list[Link]:
     document = twinform.load(path)
     models = [*document.models, *(model for world in document.worlds for model in world.models)]
     return [link for model in models for link in model.links]
+
+
+def test_a_text_that_is_no_file_includes_nothing() -> None:
+    found = twinform.check(_world("<include file='arm.xml'/>").encode()).diagnostics
+    assert [each.rule.name for each in found if each.is_error] == ["include-not-expanded"]
+
+
+def test_frames_have_names_of_their_own() -> None:
+    _, found = _normalized(_world("<frame name='f'/><frame name='f'/><body name='f'/>"))
+    assert _rules(found) == {"duplicate-name"}
+
+
+def test_a_document_in_the_terms_of_mjcf_keeps_its_includes(tmp_path: Path) -> None:
+    (tmp_path / "main.xml").write_text("<mujoco><worldbody><include file='arm.xml'/></worldbody></mujoco>")
+    (tmp_path / "arm.xml").write_text("<x><body name='arm'/></x>")
+    text = twinform.convert(tmp_path / "main.xml", to="mjcf").text
+    assert '<include file="arm.xml"/>' in text
