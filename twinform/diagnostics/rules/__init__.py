@@ -198,6 +198,7 @@ PLUGIN_REFERENCE = rule("plugin-reference", Severity.WARNING, strict=Severity.ER
 PLUGIN_WITHOUT_COUNTERPART = rule("plugin-without-counterpart", Severity.WARNING, group="plugins")
 RAISED_VERSION = rule("raised-version", Severity.INFO, group="portability")
 RANGE_IN_DEGREES = rule("range-in-degrees", Severity.WARNING, fix=Safety.UNSAFE, group="limits")
+RANGE_IN_RADIANS = rule("range-in-radians", Severity.WARNING, group="limits")
 RARE_JOINT_TYPE = rule("rare-joint-type", Severity.INFO, group="portability")
 RENAMED = rule("renamed", Severity.WARNING, group="portability")
 RENAMED_COLLISION = rule("renamed-collision", Severity.INFO, group="sensors")

@@ -8,6 +8,7 @@ files are named from the folder of the main file, and each section stands once.
 from twinform.compiler.input.load_options import LoadOptions
 from twinform.compiler.input.mjcf.attach_models import Attaching, main_file
 from twinform.compiler.input.mjcf.canonical_values import write_canonical_values
+from twinform.compiler.input.mjcf.check_angles import check_angles
 from twinform.compiler.input.mjcf.check_bodies import check_bodies
 from twinform.compiler.input.mjcf.check_references import check_frame_names, check_names, check_references
 from twinform.compiler.input.mjcf.check_relations import check_relations
@@ -35,6 +36,8 @@ def normalize(root: XmlElement, context: Context, load_options: LoadOptions) -> 
     settings = prepare(copy, findings, attaching)
     if is_too_large(copy, findings, load_options.limits.tags):
         return None
+    if settings.degrees:
+        check_angles(copy, findings)
     expand_frames(copy, settings, findings, load_options.limits.tags)
     rewrite_compiler(copy)
     check_canonical(copy, findings)
