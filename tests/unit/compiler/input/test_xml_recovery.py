@@ -102,7 +102,7 @@ def test_what_libxml2_gives_up_is_too_large() -> None:
     assert (found.rule.name, found.location.path, found.help) == ("oversized-file", "/", None)
     assert found.location.line in {257, 258}  # libxml2 before 2.14 takes one more
     assert found.message.startswith(
-        "elements are more than 256 deep, a text has more than 10 MB, or entities make more of it than they are (column "
+        "elements are more than 256 deep, a text has more than 10 MB, or entities make more of it than they are (column"
     )
 
 
