@@ -148,7 +148,9 @@ class _Verifier:
         """Report a visual and a collision with one name, which only `gz sdf --check` minds."""
         visuals = {visual.name: visual for visual in link.visuals if visual.name}
         for collision in link.collisions:
-            if collision.name in visuals:
+            visual = visuals.get(collision.name or "")
+            # a geom of MJCF is both
+            if visual is not None and (visual.source is None or visual.source != collision.source):
                 message = f"collision {collision.name!r} has the name of a visual"
                 related = (visuals[collision.name].location,)
                 self.sink.report(
