@@ -25,7 +25,8 @@ def one_model(document: Document, *, is_free: bool) -> Model:
         roots = [link for link in each.links if link.name not in children]
         links += [_placed(link, each.pose) if link in roots else link for link in each.links]
         if each.static or not (world or is_free):
-            joints += [_held(link, taken) for link in roots]
+            above = {joint.child for joint in each.joints}  # a root may hang from the world
+            joints += [_held(link, taken) for link in roots if link.name not in above]
         joints += each.joints
         frames += each.frames
         opaque += each.opaque
