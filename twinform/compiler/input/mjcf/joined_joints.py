@@ -36,7 +36,9 @@ def _joined(model: Model, partial: Joint, names: list[str]) -> Model:
     if not all(_is_bare(link) for link in model.links if link.name in between):
         return model
     last = chain[-1]
-    if any(each.pose != last.pose for each in chain) or (partial.type == "screw" and not _is_led(chain[0])):
+    # A slide is written without its place, which changes no motion.
+    is_one = _is_led(chain[0]) if partial.type == "screw" else all(each.pose == last.pose for each in chain)
+    if not is_one:
         return model
     axes = {"axis": chain[0].axis, "axis2": last.axis}
     if partial.type == "screw":

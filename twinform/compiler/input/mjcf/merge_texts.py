@@ -22,7 +22,7 @@ from twinform.compiler.input.mjcf.usual_remainders import without_assets, withou
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document, Format, Frame, Joint, Link, Model, Node, Opaque, Pose, World, replace_fields, rewrite
 from twinform.ir.element import Namespaces
-from twinform.ir.frames import MODEL, WORLD, FrameGraph
+from twinform.ir.frames import MODEL, WORLD, FrameError, FrameGraph
 from twinform.ir.scopes import scoped_models
 from twinform.passes.carriers.annotations import (
     FROM,
@@ -52,7 +52,11 @@ def merge_texts(document: Document, texts: tuple[CarriedText, ...], root: XmlEle
         return document
     if not any(each.kind == DOCUMENT for each in texts):
         return _with_parts(document, texts, root, sink)
-    return _Merged(document, texts, root, sink).document()
+    try:
+        return _Merged(document, texts, root, sink).document()
+    except FrameError as error:  # an edit has left frames without what they were in
+        error.report(sink)
+        return document
 
 
 def _with_parts(document: Document, texts: tuple[CarriedText, ...], root: XmlElement, sink: DiagnosticSink) -> Document:
