@@ -186,6 +186,8 @@ class _Texts:
         """The fields of a node that this file says, and what its writer left of it."""
         if isinstance(node, World):
             return Left(self._without_parts(node), frozenset({EXISTENCE}))
+        if isinstance(node, Visual | Collision):  # a look that comes back is compared, and taken whole
+            return self._said(node)
         left = self._left_of(node)
         if left is None:
             return self._said(node)
@@ -193,8 +195,7 @@ class _Texts:
             return Left(node, frozenset({EXISTENCE}))
         if left == node:
             return None
-        # A look that comes back is compared with the one that was written, and taken whole.
-        return self._said(node) if isinstance(node, Visual) else Left(left, said_by_mjcf(left) or frozenset())
+        return Left(left, said_by_mjcf(left) or frozenset())
 
     def _left_of(self, node: Node) -> Node | None:
         """What the writer of a node has left of it; flattening makes other objects of some nodes."""
