@@ -50,7 +50,7 @@ def page() -> str:
 def announced() -> dict[str, list[str]]:
     """The case files that announce each rule."""
     found: dict[str, list[str]] = defaultdict(list)
-    for path in sorted(each for each in CASES.iterdir() if each.is_file()):
+    for path in sorted(each for each in CASES.iterdir() if each.is_file() and each.suffix != ".mjcf"):
         for rule in dict.fromkeys(_EXPECT.findall(path.read_text(encoding="utf-8", errors="replace"))):
             found[rule].append(path.name)
     return found

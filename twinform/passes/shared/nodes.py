@@ -14,9 +14,18 @@ def unique_name(name: str, taken: Container[str]) -> str:
     return made
 
 
-def reserve_name(name: str, taken: set[str]) -> str:
-    """A unique name made of this one, which is added to the taken names."""
-    made = unique_name(name, taken)
+def reserve_name(name: str, taken: set[str], numbers: dict[str, int] | None = None) -> str:
+    """A unique name made of this one, which is added to the taken names.
+
+    Where many ask for one name, `numbers` has the numbers that were given last, so that they need not be counted again.
+    """
+    if numbers is None or name not in taken:
+        made = unique_name(name, taken)
+    else:
+        number = numbers.get(name, 0) + 1
+        while (made := f"{name}_{number}") in taken:
+            number += 1
+        numbers[name] = number
     taken.add(made)
     return made
 

@@ -66,7 +66,7 @@ class GeomLowering(NamedTuple):
         """Build the shapes of a body; the masses of its geoms are taken by now."""
         geoms = tuple(body.all_of("geom"))
         hides = any(not Bits.of(each).touches and _group(each) in {1, 2} for each in geoms)
-        names = {each.name for each in geoms if each.name}
+        names, numbers = {each.name for each in geoms if each.name}, dict[str, int]()
         collisions: list[Collision] = []
         visuals: list[Visual] = []
         rest: list[Element] = []
@@ -78,7 +78,7 @@ class GeomLowering(NamedTuple):
                 continue
             touches = Bits.of(geom).touches
             unnamed = f"{link}_{'collision' if touches else 'visual'}"
-            one = _Named(geom, geom.take("name") or reserve_name(unnamed, names), placed, touches)
+            one = _Named(geom, geom.take("name") or reserve_name(unnamed, names, numbers), placed, touches)
             is_shown = not touches or self._is_shown(geom, hides=hides)
             if is_shown:
                 visuals.append(self._visual(one))

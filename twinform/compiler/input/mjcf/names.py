@@ -21,12 +21,13 @@ class NameScope:
 
     def __init__(self) -> None:
         self._taken = {WORLD}
+        self._numbers: dict[str, int] = {}
         self._given: dict[Piece, str] = {}
 
     def give(self, piece: Piece, unnamed: str, kind: str) -> str:
         """Name an element: as it is called, with its kind behind that where another part is called so, or `unnamed`."""
         wish = safe_name(piece.take("name") or unnamed)
-        self._given[piece] = reserve_name(f"{wish}_{kind}" if wish in self._taken else wish, self._taken)
+        self._given[piece] = self.make(f"{wish}_{kind}" if wish in self._taken else wish)
         return self._given[piece]
 
     def of(self, piece: Piece) -> str:
@@ -35,7 +36,7 @@ class NameScope:
 
     def make(self, wish: str) -> str:
         """Return a new name for a part that no element stands for."""
-        return reserve_name(wish, self._taken)
+        return reserve_name(wish, self._taken, self._numbers)
 
     def marked(self, node: AnyNode, piece: Piece) -> AnyNode:
         """Return the node of an element with an annotation of the name that it has in MJCF, if that is another one."""
