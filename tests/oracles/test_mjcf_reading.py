@@ -12,7 +12,7 @@ from tests.oracles.mjcf_models import random_model
 pytest.importorskip("pydrake")
 trimesh: Any = pytest.importorskip("trimesh")
 
-_CASES = Path(__file__).parents[1] / "cases/convert/mjcf"
+_CASES = Path(__file__).parents[1] / "cases/from_mjcf"
 _NO_MESHES = [each for each in sorted(_CASES.glob("*.mjcf")) if "<mesh" not in each.read_text()]
 
 

@@ -45,9 +45,9 @@ def test_a_misspelt_option_is_told_what_was_meant() -> None:
 
 
 _VALUES: list[tuple[Callable[..., object], dict[str, Any], str]] = [
-    (partial(twinform.convert, _ROBOT), {"to": "usd"}, "to is 'usd'; expected 'sdf', 'urdf' or 'json'"),
-    (partial(plan, twinform.loads(_ROBOT)), {"to": "usd"}, "to is 'usd'; expected 'sdf', 'urdf' or 'json'"),
-    (partial(twinform.dumps, twinform.loads(_ROBOT)), {"to": "usd"}, "expected 'urdf', 'sdf' or 'json'"),
+    (partial(twinform.convert, _ROBOT), {"to": "usd"}, "to is 'usd'; expected 'sdf', 'urdf', 'mjcf' or 'json'"),
+    (partial(plan, twinform.loads(_ROBOT)), {"to": "usd"}, "to is 'usd'; expected 'sdf', 'urdf', 'mjcf' or 'json'"),
+    (partial(twinform.dumps, twinform.loads(_ROBOT)), {"to": "usd"}, "expected 'urdf', 'sdf', 'mjcf' or 'json'"),
     (partial(twinform.convert, _ROBOT, to="sdf"), {"urdf_version": "3"}, "urdf_version is '3'; expected '1.0'"),
     (partial(twinform.convert, _ROBOT, to="sdf"), {"sdf_version": "3"}, "SDF has no version '3'; it has 1.2"),
     (partial(twinform.check, _ROBOT), {"engine": "expat"}, "engine is 'expat'; expected 'libxml2' or 'xmlschema'"),

@@ -61,12 +61,8 @@ def jobs(sources: Sequence[InputSource], out: str | None, target: Target | None)
         return [ConversionJob(source, target or _other_format(source), None) for source in sources]
     folder = Path(out)
     if not _is_folder(out, len(sources)):
-        return [
-            ConversionJob(
-                source, target or known_target(format_of_suffix(folder.name)) or _other_format(source), folder
-            )
-            for source in sources
-        ]
+        named = target or _target_called(folder.name)
+        return [ConversionJob(source, named or _other_format(source), folder) for source in sources]
     if folder.exists() and not folder.is_dir():
         raise click.UsageError(f"several inputs need a directory, and {out} is a file")
     found = [_job_in_folder(folder, source, target or _other_format(source)) for source in sources]
@@ -101,6 +97,11 @@ def _job_in_place(source: InputSource, target: Target | None) -> ConversionJob:
 
 def _is_folder(out: str, count: int) -> bool:
     return count > 1 or Path(out).is_dir() or out.endswith(("/", os.sep))
+
+
+def _target_called(name: str) -> Target | None:
+    """Return the target of a file of a name; `.xml` is what files of MuJoCo are called."""
+    return "mjcf" if name.lower().endswith(".xml") else known_target(format_of_suffix(name))
 
 
 def known_target(word: str | None) -> Target | None:

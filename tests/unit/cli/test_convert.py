@@ -35,7 +35,7 @@ def test_target_is_the_other_format_or_the_one_asked_for(run: Run, arguments: li
 
 
 @pytest.mark.parametrize(
-    ("name", "tag"), [("out.sdf", "sdf"), ("out.world", "sdf"), ("out.urdf", "robot"), ("out.xml", "sdf")]
+    ("name", "tag"), [("out.sdf", "sdf"), ("out.world", "sdf"), ("out.urdf", "robot"), ("out.xml", "mujoco")]
 )
 def test_suffix_of_the_output_is_a_target(run: Run, folder: Path, name: str, tag: str) -> None:
     done = run("convert", folder / "good.urdf", "-o", folder / name)

@@ -59,7 +59,7 @@ def test_a_format_that_nobody_reads_is_told(run: Run, tmp_path: Path) -> None:
     path.write_text(twinform.convert(GOOD.encode(), to="sdf").text, encoding="utf-8")
     done = run("check", path, "--for", "mujoco")
     assert done.exit_code == 0
-    assert "MuJoCo 4.0.0 does not read SDF; it reads URDF" in done.stdout
+    assert "MuJoCo 4.0.0 does not read SDF; it reads MJCF and URDF" in done.stdout
     assert "[unread-format]" in done.stdout
 
 

@@ -50,7 +50,7 @@ WRONG: dict[str, tuple[object, list[tuple[int, str, str]]]] = {
     "nothing in it": ("{}", [(1, "", "has no 'format'")]),
     "an unknown format": (
         {"format": "urdff"},
-        [(2, "format", "Input should be 'urdf' or 'sdf'")],
+        [(2, "format", "Input should be 'urdf', 'sdf' or 'mjcf'")],
     ),
     "no model": ({**ROBOT, "models": []}, [(3, "models", "has 0 items; expected 1")]),
     "two robots": (

@@ -17,7 +17,7 @@ from twinform.ir import Document, Element, Model, Node
 from twinform.passes.carriers.carriers import NAMESPACE
 from twinform.schemas import Context
 
-_CASES = sorted((Path(__file__).parents[4] / "cases/convert/mjcf").glob("*.mjcf"))
+_CASES = sorted((Path(__file__).parents[4] / "cases/from_mjcf").glob("*.mjcf"))
 _INERTIAL = '<inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/>'
 _BODY = f'<body name="a">{_INERTIAL}</body>'
 _FLOOR = '<geom name="floor" type="plane" size="1 1 0.1"/>'
