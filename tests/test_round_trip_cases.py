@@ -13,7 +13,7 @@ ROUND_TRIPS = sorted((CASES / "round_trip").iterdir())
 ACCEPTED = [
     path
     for path in sorted((CASES / "convert").iterdir())
-    if ".expected." not in path.name and not path.name.startswith("refused")
+    if path.is_file() and ".expected." not in path.name and not path.name.startswith("refused")
 ]
 
 

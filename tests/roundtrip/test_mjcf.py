@@ -8,7 +8,7 @@ from tests.roundtrip.test_generated import text_of
 from twinform.compiler import CompileError, convert
 from twinform.ir import Document
 from twinform.testing import strategies
-from twinform.testing.properties import RoundTrip
+from twinform.testing.properties import RoundTrip, assert_valid
 
 _SETTINGS = examples(0.5)
 _JOINTS = ("revolute", "continuous", "prismatic", "fixed")
@@ -38,6 +38,23 @@ def test_a_model_comes_back_from_mjcf(model: Document) -> None:
 
 
 _INERTIAL = '<inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'
+_PUCK = f"""
+<robot name="table">
+  <link name="base"/>
+  <link name="puck">{_INERTIAL}</link>
+  <joint name="glide" type="planar">
+    <parent link="base"/><child link="puck"/>
+    <origin xyz="1 0 0.5" rpy="0 0.1 0"/><axis xyz="0 0 1"/>
+  </joint>
+</robot>
+""".encode()
+
+
+def test_a_planar_joint_comes_back_from_mjcf() -> None:
+    trip = RoundTrip.of(_PUCK, assert_valid(_PUCK))
+    assert [each.message for each in trip.mismatches(trip.back(convert(_PUCK, to="mjcf").text))] == []
+
+
 _ARM = f"""
 <robot name="arm">
   <link name="base">{_INERTIAL}</link>

@@ -4,9 +4,11 @@ from collections.abc import Iterator
 from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import rules
-from twinform.ir import Joint, Limit, Link, Model, Opaque
+from twinform.ir import Joint, Limit, Link, Model, Opaque, Pose
+from twinform.ir.frames import FrameError, FrameGraph
 from twinform.ir.node import NOT_CONTENT
 from twinform.ir.record import fields_of
+from twinform.ir.transform import Transform
 from twinform.passes.carriers.annotations import SYNTHESIZED, is_synthesized, without_annotation
 from twinform.passes.carriers.carriers import is_carrier, unpack
 from twinform.passes.legalise.to_sdf.joint_types import planar_chain, planar_names
@@ -15,8 +17,10 @@ from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
 AnyPart = TypeVar("AnyPart", Joint, Link)
 
 _SLIDES = 2
-_BESIDE = NOT_CONTENT | {"type", "opaque"}
-"""Fields in which the parts of an unedited chain may differ."""
+_BESIDE = NOT_CONTENT | {"type", "opaque", "pose"}
+"""Fields in which the parts of an unedited chain may differ; poses count for where they put a part."""
+_ALMOST = 1e-12
+"""By how much places of one frame may differ that were computed in two ways."""
 
 
 class FoldPlanarJoints(ToUrdfPass):
@@ -39,6 +43,7 @@ class FoldPlanarJoints(ToUrdfPass):
         above = {joint.child: joint for joint in model.joints}
         links = {link.name: link for link in model.links}
         taken = {node.name for node in (*model.links, *model.joints, *model.frames)}
+        graph = FrameGraph(model)
         folded: dict[str, Joint] = {}
         gone: set[str] = set()
         stale: set[str] = set()
@@ -47,7 +52,7 @@ class FoldPlanarJoints(ToUrdfPass):
             # Made anew and compared: the planar joint returns only if it would become exactly this
             # chain, names included. A name that somebody gave to a part is one that plugins know,
             # and a planar joint has no place for it.
-            if chain is None or not _is_as_made(joint, chain, links, taken):
+            if chain is None or not (_is_as_made(joint, chain, links, taken) and _is_in_one_place(joint, chain, graph)):
                 message = (
                     f"joint {joint.name!r} was planar, and the joints that it became, or their names, have changed"
                 )
@@ -56,7 +61,7 @@ class FoldPlanarJoints(ToUrdfPass):
                 stale |= set(_upwards(joint, above))
             else:
                 first, second = chain
-                folded[joint.name] = _make_planar(joint, first)
+                folded[joint.name] = _make_planar(joint, first.copy(pose=_place(chain, graph)))
                 gone |= {first.name, second.name, first.child or "", second.child or ""}
         joints = (folded.get(joint.name, joint) for joint in model.joints if joint.name not in gone)
         kept = (link for link in model.links if link.name not in gone)
@@ -107,6 +112,35 @@ def _is_as_made(turn: Joint, chain: tuple[Joint, Joint], links: dict[str, Link],
     taken |= names
     parts = zip((first, second, turn, *between), (*made.joints, *made.links), strict=True)
     return all(_motion_of(is_now) == _motion_of(was) for is_now, was in parts)
+
+
+def _is_in_one_place(turn: Joint, chain: tuple[Joint, Joint], graph: FrameGraph) -> bool:
+    """Whether all frames of a chain are where its first joint is, as in the one that a planar joint becomes."""
+    first, second = chain
+    try:
+        _place(chain, graph)
+        joints = [graph.pose(each.name, first.name, kind="joint", base="joint") for each in (second, turn)]
+        links = [graph.pose(each.child or "", first.name, base="joint") for each in chain]
+        return all(map(_is_identity, (*joints, *links)))
+    except FrameError:  # an edit has left a pose without its frame
+        return False
+
+
+def _is_identity(placed: Transform) -> bool:
+    return placed.is_identity or all(abs(each) < _ALMOST for each in (*placed.translation, *placed.rpy()))
+
+
+def _place(chain: tuple[Joint, Joint], graph: FrameGraph) -> Pose | None:
+    """The pose of the first joint of a chain, from its parent where it is written from a part that goes.
+
+    Raises:
+        FrameError: there is no such parent.
+    """
+    first, second = chain
+    gone = {None, first.child, second.name, second.child}
+    if first.parent is None or (first.pose is not None and first.pose.relative_to not in gone):
+        return first.pose
+    return graph.pose(first.name, first.parent, kind="joint").to_pose(relative_to=first.parent)
 
 
 def _motion_of(part: Joint | Link) -> dict[str, object]:
