@@ -55,6 +55,12 @@ def test_a_planar_joint_comes_back_from_mjcf() -> None:
     assert [each.message for each in trip.mismatches(trip.back(convert(_PUCK, to="mjcf").text))] == []
 
 
+def test_words_of_a_newer_urdf_come_back_from_mjcf() -> None:
+    newer = _ARM.replace(b'velocity="3"', b'velocity="3" jerk="5"')
+    trip = RoundTrip.of(newer, assert_valid(newer))
+    assert [each.message for each in trip.mismatches(trip.back(convert(newer, to="mjcf").text))] == []
+
+
 _ARM = f"""
 <robot name="arm">
   <link name="base">{_INERTIAL}</link>

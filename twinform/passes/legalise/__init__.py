@@ -37,7 +37,7 @@ def legalisation(source: Format, version: str | None, target: Target) -> tuple[P
             return ()
         from twinform.passes.legalise.to_mjcf.sequence import to_mjcf  # noqa: PLC0415 - see above
 
-        return to_mjcf(source, version, target.requested)
+        return to_mjcf(source, version, target.requested, mixed_source=target.mixed_source)
     if source is target.format:
         if source is Format.URDF:
             return _between_urdf(version, target.urdf_version, carriers=target.requested.carriers)

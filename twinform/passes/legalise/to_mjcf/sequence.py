@@ -18,13 +18,18 @@ _WITHOUT_AUTOMATIC = "1.10"
 """The last version of SDF in which no inertia is left to be computed from the collisions."""
 
 
-def to_mjcf(source: Format, version: str | None, requested: Requested = USUAL) -> tuple[Pass, ...]:
-    """The passes that make MJCF of a URDF or SDF document: by way of the newest SDF, and no other way."""
+def to_mjcf(
+    source: Format, version: str | None, requested: Requested = USUAL, *, mixed_source: bool = False
+) -> tuple[Pass, ...]:
+    """The passes that make MJCF of a URDF or SDF document: by way of the newest SDF, and no other way.
+
+    `mixed_source` means that a URDF has syntax of newer versions.
+    """
     newest = versions_of("sdf")[-1]
     # Marks tell the writer which parts the way through SDF has made. Without carriers it writes none.
     marking = replace(requested, carriers=True)
     if source is Format.URDF:
-        declared, in_sdf = None, tuple(_robot_on_the_world(newest, marking))
+        declared, in_sdf = None, tuple(_robot_on_the_world(newest, marking, mixed=mixed_source))
     else:
         declared, in_sdf = version, () if version == newest else change_version(version, newest, marking)
     write = WriteMjcf.unchecked(
@@ -37,14 +42,14 @@ def to_mjcf(source: Format, version: str | None, requested: Requested = USUAL) -
     return (*in_sdf, WriteInertias.unchecked(version=_WITHOUT_AUTOMATIC), write)
 
 
-def _robot_on_the_world(version: str, requested: Requested) -> Iterator[Pass]:
+def _robot_on_the_world(version: str, requested: Requested, *, mixed: bool) -> Iterator[Pass]:
     """Yield the passes from URDF to SDF, with one more that fixes the robot to the world of SDF."""
     from twinform.passes.legalise.to_sdf.mesh_uris import MeshUris  # noqa: PLC0415 - few conversions go this way
     from twinform.passes.legalise.to_sdf.sequence import to_sdf  # noqa: PLC0415 - many passes
     from twinform.passes.legalise.to_sdf.unique_names import UniqueNames  # noqa: PLC0415 - see above
     from twinform.passes.legalise.to_sdf.world_link import WorldLink  # noqa: PLC0415 - see above
 
-    for each in to_sdf(version, requested):
+    for each in to_sdf(version, requested, mixed_source=mixed):
         match each:
             case MeshUris():
                 continue  # files are looked up, as the URDF names them
