@@ -152,7 +152,7 @@ class _Verifier:
             # a geom of MJCF is both
             if visual is not None and (visual.source is None or visual.source != collision.source):
                 message = f"collision {collision.name!r} has the name of a visual"
-                related = (visuals[collision.name].location,)
+                related = (visual.location,)
                 self.sink.report(
                     rules.SHARED_NAME, message, collision.location, related=related, severity=Severity.INFO
                 )
