@@ -1,5 +1,7 @@
 """There and back through MJCF: on models that Hypothesis makes up, all that MJCF does not say comes back."""
 
+from pathlib import Path
+
 import pytest
 from hypothesis import assume, given
 
@@ -10,6 +12,7 @@ from twinform.ir import Document
 from twinform.testing import strategies
 from twinform.testing.properties import RoundTrip, assert_valid
 
+_CASES = Path(__file__).parent.parent / "cases"
 _SETTINGS = examples(0.5)
 _JOINTS = ("revolute", "continuous", "prismatic", "fixed")
 
@@ -53,6 +56,13 @@ _PUCK = f"""
 def test_a_planar_joint_comes_back_from_mjcf() -> None:
     trip = RoundTrip.of(_PUCK, assert_valid(_PUCK))
     assert [each.message for each in trip.mismatches(trip.back(convert(_PUCK, to="mjcf").text))] == []
+
+
+@pytest.mark.parametrize("case", ["edits/made_link_with_a_mass", "elements/dialects", "passes/structure/rename_shared"])
+def test_a_case_comes_back_from_mjcf(case: str) -> None:
+    robot = (_CASES / f"{case}.urdf").read_bytes()
+    trip = RoundTrip.of(robot, assert_valid(robot))
+    assert [each.message for each in trip.mismatches(trip.back(convert(robot, to="mjcf").text))] == []
 
 
 def test_words_of_a_newer_urdf_come_back_from_mjcf() -> None:

@@ -54,12 +54,14 @@ def said_of_limit(limit: Limit, joint: Joint) -> frozenset[str]:
     found: set[str] = set()
     if joint.type in _LIMITED and limit.lower != limit.upper and not _is_reversed(limit):
         found |= {"lower", "upper"}
-    if limit.effort is not None and 0.0 < limit.effort < UNLIMITED:
+    if joint.type not in _ROUND and limit.effort is not None and 0.0 < limit.effort < UNLIMITED:
         found.add("effort")
     return frozenset(found)
 
 
 _LIMITED = frozenset({"revolute", "prismatic", "universal", "revolute2", "screw"})
+_ROUND = frozenset({"ball", "spherical"})
+"""The types of joints without an axis, which are written without an effort too."""
 
 
 def _is_reversed(limit: Limit) -> bool:

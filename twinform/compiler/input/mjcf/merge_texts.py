@@ -194,7 +194,7 @@ class _Merged:
         links = self.merging.merge_all(between, tuple(without_annotation(each, WRITTEN) for each in self.links))
         ends = {WORLD, *(each.name for each in links), *(each.name for each in (*model.frames, *self.frames))}
         joints = self.merging.merge_all(joints, tuple(self._typed(joints, ends)))
-        frames = self.merging.merge_all(model.frames, tuple(self.frames))
+        frames = self.merging.merge_all(model.frames, tuple(without_annotation(each, WRITTEN) for each in self.frames))
         model = model.copy(links=links, joints=joints, frames=frames)
         if partial is None:
             return self._let_go(model, made)
@@ -262,7 +262,9 @@ class _Merged:
 
     def _settled(self, model: Model) -> Model | World:
         """The model with its contacts, which were computed while a robot was held by the world."""
-        held = settle_contacts(model.copy(joints=(*self.holds, *model.joints)))
+        graph = FrameGraph(model)  # a link that was made for a model without any is gone
+        holds = tuple(each for each in self.holds if graph.knows(each.child or ""))
+        held = settle_contacts(model.copy(joints=(*holds, *model.joints)))
         return held.copy(joints=tuple(each for each in held.joints if each not in self.holds))
 
     def _namespaces(self) -> Namespaces:

@@ -1,6 +1,6 @@
 """Sites of MJCF: the named frames of SDF, each in the body that it moves with."""
 
-from twinform.ir import Element
+from twinform.ir import Element, Frame
 from twinform.ir.frames import WORLD
 from twinform.ir.transform import Transform
 from twinform.passes.legalise.changed_names import source_name
@@ -28,9 +28,18 @@ def _frame_site(context: MjcfContext, scoped: ScopedFrame, link: str | None) -> 
     if not any(each.name == "site" for each in kept_elements(frame)):
         shape = [("group", HIDDEN)]
     place = context.place(name, link, kind="frame")
-    written = scope_of(name) + source_name(frame)
-    context.written_sites[name] = written
+    written = context.written_sites[name] = _name(context, name, frame)
     return with_kept(make_element("site", [("name", written), *placement(place), *shape], source=frame.source), frame)
+
+
+def _name(context: MjcfContext, name: str, frame: Frame) -> str:
+    """The name that a frame had in its source, unless that is the name of another frame here."""
+    wanted = scope_of(name) + source_name(frame)
+    taken = context.names.setdefault("site", set())
+    if wanted in taken:
+        return name
+    taken.add(wanted)
+    return wanted
 
 
 def sensor_site(name: str | None, place: Transform) -> Element:

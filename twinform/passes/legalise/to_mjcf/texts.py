@@ -365,6 +365,8 @@ class _Texts:
         context = self.context
         if isinstance(node, Link):
             names = (context.written_bodies.get(node.name, node.name),)
+        elif isinstance(node, Frame):
+            names = (context.written_sites.get(node.name, node.name),)
         elif isinstance(node, Joint):
             names = context.written_joints.get(node.name) or (node.name,)
             if node.type == "screw":  # of whose two joints only the one that turns counts for others
