@@ -66,16 +66,19 @@ def geom_elements(context: MjcfContext, body: Body) -> list[Element]:
     for collision in body.link.collisions:
         if (shape := _shape_of(context, body, collision)) is not None:
             twin = twins.get(collision.name)
-            more = [*touch_of(context, body, collision), *_group(context, collision, _TOUCHED)]
+            more = touch_of(context, body, collision)
             if twin is not None and (twin.geometry, twin.pose) == (collision.geometry, collision.pose):
                 done.add(id(twin))
-                more += look_of(context, body, twin, collision)
+                more = [*more, *look_of(context, body, twin, collision)]
+            else:
+                more = [*more, *_group(context, collision, _TOUCHED)]
             found.append(_geom(context, body, collision, shape, more))
             if twin is not None and id(twin) in done and id(collision) in context.written_geoms:
                 context.written_geoms[id(twin)] = context.written_geoms[id(collision)]
     for visual in body.link.visuals:
         if id(visual) not in done and (shape := _shape_of(context, body, visual)) is not None:
-            group = _group(context, visual, _SEEN)
+            # Beside visuals in their own group, one that touches too would count as hidden.
+            group = [] if done else _group(context, visual, _SEEN)
             more = [*_UNTOUCHED, *group, *_WEIGHTLESS, *look_of(context, body, visual)]
             found.append(_geom(context, body, visual, shape, more))
     return found

@@ -30,6 +30,16 @@ def test_a_longer_chain_is_refused_with_what_helps() -> None:
     assert "lump-fixed-joints" in (error.help or "")
 
 
+def test_a_geom_that_is_seen_and_touched_stays_in_the_group_that_viewers_show() -> None:
+    seen = '<geom name="s" type="sphere" size="2" contype="0" conaffinity="0" density="0"/>'
+    body = f'<body><geom name="g" type="box" size="1 1 1"/>{seen}</body>'
+    read = twinform.convert(f"<mujoco><worldbody>{body}</worldbody></mujoco>".encode(), to="sdf").text
+    assert "same-geom" in read
+    again = twinform.convert(read.encode(), to="mjcf").text
+    assert '<geom name="g" type="box" size="1 1 1"/>' in again
+    assert "group=" not in again
+
+
 def test_many_parts_of_one_name_are_told_apart() -> None:
     visual = '<visual name="seen"><geometry><sphere><radius>1</radius></sphere></geometry></visual>'
     links = "".join(f'<link name="l{i}">{visual}</link>' for i in range(3))
