@@ -65,6 +65,13 @@ def test_a_case_comes_back_from_mjcf(case: str) -> None:
     assert [each.message for each in trip.mismatches(trip.back(convert(robot, to="mjcf").text))] == []
 
 
+def test_plugins_of_one_name_come_back_from_mjcf() -> None:
+    motors = "".join(f'<plugin name="motor" filename="m.so"><number>{each}</number></plugin>' for each in range(3))
+    drone = f'<sdf version="1.11"><model name="drone"><link name="hull"/>{motors}</model></sdf>'.encode()
+    trip = RoundTrip.of(drone, assert_valid(drone))
+    assert [each.message for each in trip.mismatches(trip.back(convert(drone, to="mjcf").text))] == []
+
+
 def test_words_of_a_newer_urdf_come_back_from_mjcf() -> None:
     newer = _ARM.replace(b'velocity="3"', b'velocity="3" jerk="5"')
     trip = RoundTrip.of(newer, assert_valid(newer))

@@ -5,7 +5,8 @@ something of it is said, the rest belongs to what says it: such a node has the a
 where the target does not say the node any more. So an edit of the target always wins.
 """
 
-from collections.abc import Callable
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import field
 from functools import cache
 from operator import is_
@@ -148,9 +149,9 @@ class Merging:
 
     def merge_all(self, mine: tuple[AnyNode, ...], partials: tuple[AnyNode, ...]) -> tuple[AnyNode, ...]:
         """The nodes with the partial ones of the same names merged into them, and the others behind them."""
-        merged = {_key(each, getattr(each, "name", None), place): each for place, each in enumerate(mine)}
-        for place, partial in enumerate(partials, len(merged)):
-            key = _key(partial, written_name(partial), place)
+        merged = dict(zip(_keys((each, getattr(each, "name", None)) for each in mine), mine, strict=True))
+        keys = _keys(((each, written_name(each)) for each in partials), len(merged))
+        for key, partial in zip(keys, partials, strict=True):
             if key in merged:
                 merged[key] = self.merge(merged[key], partial)
             elif (added := self.added(partial)) is not None:
@@ -218,8 +219,15 @@ def written_names(partial: Node) -> list[str]:
     return found or [getattr(partial, "name", None) or ""]
 
 
-def _key(node: Node, name: str | None, place: int) -> tuple[type[Node], str | int]:
-    return type(node), place if name is None else name
+def _keys(named: Iterable[tuple[Node, str | None]], start: int = 0) -> Iterator[tuple[type[Node], str | None, int]]:
+    """Yield what tells nodes apart: their names, or their places; several of one name, as plugins, are counted."""
+    counts = Counter[tuple[type[Node], str]]()
+    for place, (node, name) in enumerate(named, start):
+        if name is None:
+            yield type(node), None, place
+        else:
+            yield type(node), name, counts[type(node), name]
+            counts[type(node), name] += 1
 
 
 def _is_unwritten(value: object) -> bool:
