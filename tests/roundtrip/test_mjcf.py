@@ -72,6 +72,15 @@ def test_plugins_of_one_name_come_back_from_mjcf() -> None:
     assert [each.message for each in trip.mismatches(trip.back(convert(drone, to="mjcf").text))] == []
 
 
+def test_the_canonical_link_comes_back_from_mjcf() -> None:
+    joint = (
+        '<joint name="j" type="revolute"><parent>base</parent><child>arm</child><axis><xyz>0 0 1</xyz></axis></joint>'
+    )
+    model = f'<sdf version="1.11"><model name="m"><link name="arm"/><link name="base"/>{joint}</model></sdf>'.encode()
+    trip = RoundTrip.of(model, assert_valid(model))
+    assert [each.message for each in trip.mismatches(trip.back(convert(model, to="mjcf").text))] == []
+
+
 def test_words_of_a_newer_urdf_come_back_from_mjcf() -> None:
     newer = _ARM.replace(b'velocity="3"', b'velocity="3" jerk="5"')
     trip = RoundTrip.of(newer, assert_valid(newer))

@@ -65,12 +65,15 @@ from twinform.passes.legalise.to_urdf.express_axes import ExpressAxes
 from twinform.passes.legalise.to_urdf.flatten_for_urdf import flat_model
 from twinform.passes.legalise.to_urdf.resolve_joint_ends import ResolveJointEnds
 from twinform.passes.legalise.to_urdf.to_urdf_pass import UrdfKeeper
+from twinform.passes.sdf_versions import sdf_version_read
 from twinform.passes.shared.poses import OFFSET, POSE, offset_attributes, pose_attributes
-from twinform.schemas import XmlElement, format_value
+from twinform.schemas import XmlElement, format_value, parse_version, versions_of
 
 _MARK = f"{{{NAMESPACE}}}{REST}"
 _GROUPS = frozenset({"axis", "axis2", "limit", "dynamics", "surface"})
 """Elements that only group others: what is in them counts, and not they themselves."""
+_ALWAYS_THE_FIRST = frozenset(each for each in versions_of("sdf") if parse_version(each) < (1, 7))
+"""The versions of SDF in which the canonical link cannot be named."""
 _DIRECTED = frozenset({"revolute", "continuous", "prismatic", "universal", "revolute2", "screw"})
 """The types of joints whose axes MJCF says."""
 _OF_AXES = (Axis, Limit, Dynamics, Mimic)
@@ -91,7 +94,7 @@ def add_texts(context: MjcfContext) -> None:
         if context.document.worlds:
             texts.add("world", "", context.holder)
     else:
-        texts.add("model", "", model)
+        texts.add("model", "", texts.with_canonical_link(model))
     for kind, parts in (("link", model.links), ("joint", model.joints), ("frame", model.frames)):
         for each in parts:
             texts.add(kind, each.name, texts.in_its_link(each) if isinstance(each, Frame) else each)
@@ -278,6 +281,14 @@ class _Texts:
             attributes.pop("relative_to", None)
         return [annotation(POSE, attributes=attributes)] if attributes else []
 
+    def with_canonical_link(self, model: Model) -> Model:
+        """The model, which names its first link if that is not the first body of the file; no old model can."""
+        first = next(iter(self.context.written_bodies), None)
+        is_old = sdf_version_read(self._source_version()) in _ALWAYS_THE_FIRST
+        if self.is_back or is_old or model.canonical_link or not model.links or first in {None, model.links[0].name}:
+            return model
+        return model.copy(canonical_link=model.links[0].name)
+
     def in_its_link(self, frame: Frame) -> Frame:
         """A frame that has no site, such as that of a nested model, posed in the link that it moves with."""
         if frame.name in self.context.names.get("site", ()):
@@ -346,7 +357,7 @@ class _Texts:
 
     def _provenance(self, document: Document) -> list[Opaque]:
         """The annotations of the version of SDF that the source had, and of the prefixes in it."""
-        version = self.context.source_version or document.version
+        version = self._source_version()
         prefixes = [{"prefix": prefix, "uri": uri} for prefix, uri in document.namespaces if uri != NAMESPACE]
         is_alone = bool(self.context.document.worlds) or isinstance(self.context.holder, Model)
         return [
@@ -354,6 +365,9 @@ class _Texts:
             *([] if is_alone else [annotation(SEVERAL)]),
             *(annotation(PREFIXES, attributes=each) for each in prefixes),
         ]
+
+    def _source_version(self) -> str | None:
+        return self.context.source_version or self.context.document.version
 
     def _offset(self) -> list[Opaque]:
         """The annotation of where the model's own frame is in the world, which MJCF has no frame for."""
