@@ -81,6 +81,15 @@ def test_the_canonical_link_comes_back_from_mjcf() -> None:
     assert [each.message for each in trip.mismatches(trip.back(convert(model, to="mjcf").text))] == []
 
 
+def test_words_of_a_newer_sdf_come_back_from_mjcf() -> None:
+    links = (
+        '<link name="a"><pose>0 0 1 0 0 0</pose></link><link name="b"><pose relative_to="a">1 0 0 0 0 0</pose></link>'
+    )
+    model = f'<sdf version="1.6"><model name="m">{links}</model></sdf>'.encode()
+    trip = RoundTrip.of(model, assert_valid(model))
+    assert [each.message for each in trip.mismatches(trip.back(convert(model, to="mjcf").text))] == []
+
+
 def test_words_of_a_newer_urdf_come_back_from_mjcf() -> None:
     newer = _ARM.replace(b'velocity="3"', b'velocity="3" jerk="5"')
     trip = RoundTrip.of(newer, assert_valid(newer))

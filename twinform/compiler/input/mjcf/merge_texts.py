@@ -39,10 +39,13 @@ from twinform.passes.carriers.mjcf_texts import ATTACHED, DOCUMENT, LOOP, PREFIX
 from twinform.passes.carriers.partial_nodes import REST, WRITTEN, Merging, is_rest, written_name, written_names
 from twinform.passes.legalise.to_sdf.restore_frames import RestoreFrames
 from twinform.passes.legalise.to_sdf.restore_nested import NameScopes, RestoreNested
-from twinform.passes.sdf_versions import change_version
+from twinform.passes.sdf_versions import change_version, lower_meaning
+from twinform.passes.sdf_versions.set_version import SetVersion
 from twinform.passes.shared.poses import POSE
-from twinform.schemas import DEFAULT_SDF_VERSION, XmlElement, versions_of
+from twinform.schemas import DEFAULT_SDF_VERSION, XmlElement, parse_version, versions_of
 
+_BEFORE_NAMED_FRAMES = frozenset(each for each in versions_of("sdf") if parse_version(each) < (1, 7))
+"""The versions of SDF in which axes and poses name no frames."""
 AnyPart = TypeVar("AnyPart", Link, Joint, Frame, Model)
 
 
@@ -236,7 +239,8 @@ class _Merged:
         origin = find_annotation(model, FROM)
         version = versions_of("sdf")[-1]
         model = with_annotation(without_annotation(model, FROM), FROM, attributes={"format": "sdf", "version": version})
-        steps = (NameScopes.unchecked(), RestoreFrames.unchecked(), RestoreNested.unchecked())
+        frames = RestoreFrames.unchecked(old_words=self._is_mixed and self._source_version in _BEFORE_NAMED_FRAMES)
+        steps = (NameScopes.unchecked(), frames, RestoreNested.unchecked())
         for step in steps:
             model = step.run_model(model, self.sink)
         model = without_annotation(_without_holds(model), FROM)
@@ -283,15 +287,28 @@ class _Merged:
         world = self.merging.merge(world, partial)
         return world.copy(lights=tuple(without_annotation(each, POSE) for each in world.lights))
 
+    @property
+    def _source_version(self) -> str | None:
+        """The version of SDF that the source had."""
+        found = find_annotation(self.around, FROM) if self.around else None
+        return found.get("version") if found else None
+
+    @property
+    def _is_mixed(self) -> bool:
+        """Whether the source had syntax of newer versions too."""
+        found = find_annotation(self.around, FROM) if self.around else None
+        return found is not None and found.get("mixed") == "true"
+
     def _in_version(self, document: Document) -> Document:
         """The document in the version of SDF that its source had."""
         newest = versions_of("sdf")[-1]
-        found = find_annotation(self.around, FROM) if self.around else None
         is_robot = any(came_from(each, Format.URDF) for each in document.models)
-        version = DEFAULT_SDF_VERSION if is_robot or found is None else found.get("version")
+        version = DEFAULT_SDF_VERSION if is_robot else self._source_version or DEFAULT_SDF_VERSION
         if version == newest or version not in versions_of("sdf"):
             return document
-        for step in change_version(newest, version):
+        # Syntax of newer versions goes back, and only what means something else is rewritten.
+        mixed = (*lower_meaning(version), SetVersion.unchecked(version=version))
+        for step in mixed if self._is_mixed else change_version(newest, version):
             document = step.run(document, self.sink)
         return document
 

@@ -7,7 +7,8 @@ from twinform.ir import Format
 from twinform.passes.framework.pass_base import Pass
 from twinform.passes.legalise.to_mjcf.hold_root import HoldRoot
 from twinform.passes.legalise.to_mjcf.write_mjcf import WriteMjcf
-from twinform.passes.sdf_versions import change_version
+from twinform.passes.sdf_versions import change_version, raise_words
+from twinform.passes.sdf_versions.set_version import SetVersion
 from twinform.passes.sdf_versions.write_inertias import WriteInertias
 from twinform.request_options import USUAL, Requested
 from twinform.schemas import versions_of
@@ -23,18 +24,22 @@ def to_mjcf(
 ) -> tuple[Pass, ...]:
     """The passes that make MJCF of a URDF or SDF document: by way of the newest SDF, and no other way.
 
-    `mixed_source` means that a URDF has syntax of newer versions.
+    `mixed_source` means that the source has syntax of newer versions.
     """
     newest = versions_of("sdf")[-1]
     # Marks tell the writer which parts the way through SDF has made. Without carriers it writes none.
     marking = replace(requested, carriers=True)
     if source is Format.URDF:
         declared, in_sdf = None, tuple(_robot_on_the_world(newest, marking, mixed=mixed_source))
+    elif mixed_source:
+        declared = version
+        in_sdf = (*raise_words(version, mixed=True), SetVersion.unchecked(version=newest))
     else:
         declared, in_sdf = version, () if version == newest else change_version(version, newest, marking)
     write = WriteMjcf.unchecked(
         carriers=requested.carriers,
         source_version=declared,
+        mixed=mixed_source and source is Format.SDF,
         shape_error=requested.shape_error,
         side_files=requested.side_files,
     )

@@ -357,11 +357,11 @@ class _Texts:
 
     def _provenance(self, document: Document) -> list[Opaque]:
         """The annotations of the version of SDF that the source had, and of the prefixes in it."""
-        version = self._source_version()
+        version, mixed = self._source_version(), "true" if self.context.mixed else None
         prefixes = [{"prefix": prefix, "uri": uri} for prefix, uri in document.namespaces if uri != NAMESPACE]
         is_alone = bool(self.context.document.worlds) or isinstance(self.context.holder, Model)
         return [
-            annotation(FROM, attributes={"format": Format.SDF.value, "version": version}),
+            annotation(FROM, attributes={"format": Format.SDF.value, "version": version, "mixed": mixed}),
             *([] if is_alone else [annotation(SEVERAL)]),
             *(annotation(PREFIXES, attributes=each) for each in prefixes),
         ]

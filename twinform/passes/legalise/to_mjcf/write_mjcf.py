@@ -54,6 +54,8 @@ class WriteMjcf(AssetPass):
     carriers: bool = True
     source_version: str | None = None
     """The version of SDF that the source had; without it, the newest."""
+    mixed: bool = False
+    """Whether the SDF has syntax of newer versions, which goes back into it."""
     shape_error: float | None = None
     side_files: bool = True
 
@@ -67,7 +69,7 @@ class WriteMjcf(AssetPass):
         keeper = Keeper(sink, self.carriers)
         # MuJoCo looks meshes up by their paths, so that these have no prefix.
         replacer = ShapeReplacer(keeper, "MJCF", _LACKS.__contains__, self.shape_error, None, self.side_files)
-        context = MjcfContext(document, holder, sink, keeper, replacer, self._assets, self.source_version)
+        context = MjcfContext(document, holder, sink, keeper, replacer, self._assets, self.source_version, self.mixed)
         try:
             _write_sections(context)
         except FrameError as error:

@@ -71,6 +71,7 @@ class MjcfContext:
         sink: for findings and the ledger.
         keeper: for what MJCF cannot say: carried, or dropped where no carriers are asked for.
         source_version: the version of SDF that the source had; None for the newest.
+        mixed: whether the source has syntax of newer versions of SDF.
         assets: leads to the files that the document names.
         replacer: makes meshes that stand for shapes which MJCF lacks.
         names: the names in use, by kind (`body`, `joint`, `geom`, `site`, `mesh`, ...): each kind has its own.
@@ -92,6 +93,7 @@ class MjcfContext:
     replacer: ShapeReplacer
     assets: Assets = NO_ASSETS
     source_version: str | None = None
+    mixed: bool = False
     numbers: dict[tuple[str, str], int] = field(default_factory=dict[tuple[str, str], int])
     names: dict[str, set[str]] = field(default_factory=dict[str, set[str]])
     written_bodies: dict[str, str] = field(default_factory=dict[str, str])
