@@ -16,7 +16,7 @@ from twinform.dataclass import dataclass
 from twinform.ir import Axis, Dynamics, Limit, Node, Opaque, Surface, rewrite, walk
 from twinform.ir.node import NOT_CONTENT
 from twinform.ir.record import field_values, fields_of
-from twinform.passes.carriers.annotations import find_annotation, is_annotation, with_annotation, without_annotation
+from twinform.passes.carriers.annotations import annotation, find_annotation, is_annotation, without_annotation
 from twinform.passes.carriers.carriers import is_ours
 
 AnyNode = TypeVar("AnyNode", bound=Node)
@@ -34,6 +34,9 @@ EXISTENCE = "name"
 """Among the fields that are said it means that the target says of every such node that it is there."""
 _LOOSE = (Axis, Dynamics, Limit, Surface)
 """Groups of values, of which each counts for itself: the others may go."""
+_REST = annotation(REST)
+_Usual = tuple[str, object]
+"""A field and its default."""
 Notes = Callable[[Node], tuple[Opaque, ...]]
 """Returns annotations on how the source wrote a node that the target writes otherwise."""
 
@@ -62,20 +65,28 @@ def remainder(node: AnyNode, said: Said, notes: Notes = _no_notes) -> AnyNode | 
     if isinstance(fields, Left):
         base, fields = cast("AnyNode", fields.node), fields.fields
     more = notes(node)
-    update: dict[str, object] = {"opaque": (*more, *base.opaque)} if more else {}
-    is_said = base is not node or EXISTENCE in fields
-    for name, value in field_values(base).items():
-        if name in _APART or _is_unwritten(value):
+    update: dict[str, object] = {}
+    is_said, has_content = base is not node or EXISTENCE in fields, bool(more or base.opaque)
+    unsaid, known = _parts_of(base.__class__, fields)
+    for name, usual in unsaid:
+        value = getattr(base, name)
+        if _is_unwritten(value):
             continue
-        usual = _default(base, name)
-        left = usual if name in fields else _left_of(value, said, notes, usual)
+        left = _left_of(value, said, notes, usual)
         if left is not value:
             update[name] = left
             is_said = True
-    left = base.copy(**update) if update else base
-    if not _has_content(left):
+        has_content = has_content or not _is_unwritten(left)
+    if not has_content:  # most nodes are said as a whole, and need no copy
         return None
-    return with_annotation(left, REST) if is_said and not isinstance(node, _LOOSE) else left
+    for name, usual in known:
+        if not _is_unwritten(getattr(base, name)):
+            update[name] = usual
+            is_said = True
+    rest = (_REST,) if is_said and not isinstance(node, _LOOSE) else ()
+    if rest or more:
+        update["opaque"] = (*rest, *more, *base.opaque)
+    return base.copy(**update) if update else base
 
 
 def _with_notes(node: AnyNode, notes: Notes) -> AnyNode:
@@ -231,22 +242,15 @@ def _keys(named: Iterable[tuple[Node, str | None]], start: int = 0) -> Iterator[
 
 
 def _is_unwritten(value: object) -> bool:
-    return value is None or value == ()
+    return not value and (value is None or value == ())  # to compare records takes longer
 
 
 def _are_nodes(value: object) -> Any:
     return isinstance(value, tuple) and bool(value) and isinstance(value[0], Node)  # pyright: ignore[reportUnknownArgumentType] - any
 
 
-def _has_content(node: Node) -> bool:
-    """Whether a node has more than a name."""
-    return any(name not in IDENTITY and not _is_unwritten(value) for name, value in field_values(node).items())
-
-
-def _default(node: Node, name: str) -> object:
-    return _defaults(type(node))[name]
-
-
 @cache
-def _defaults(kind: type[Node]) -> dict[str, object]:
-    return {name: each.default for name, each in fields_of(kind).items()}
+def _parts_of(kind: type[Node], said: frozenset[str]) -> tuple[tuple[_Usual, ...], tuple[_Usual, ...]]:
+    """The fields of a class that are left unsaid, and those that are said, with their defaults."""
+    parts = [(name, each.default) for name, each in fields_of(kind).items() if name not in _APART]
+    return tuple(each for each in parts if each[0] not in said), tuple(each for each in parts if each[0] in said)

@@ -69,27 +69,27 @@ def _is_reversed(limit: Limit) -> bool:
 
 
 def _of_shape(node: Node) -> frozenset[str] | None:
-    return _fields("name pose") if isinstance(node, Visual | Collision) and node.geometry else None
+    return _PLACED if isinstance(node, Visual | Collision) and node.geometry else None
 
 
 def _of_geometry(node: Node) -> frozenset[str] | None:
     """Whether a shape is one of MJCF; what a mesh stands for is restored by a note on the visual or collision."""
     shape = node.shape if isinstance(node, Geometry) else None
-    return _NONE if shape is None or type(shape) in _SHAPES else _fields("shape")
+    return _NONE if shape is None or type(shape) in _SHAPES else _SHAPE
 
 
 def _of_inertial(node: Node) -> frozenset[str] | None:
     if not isinstance(node, Inertial) or node.auto or is_token(node) or is_chain_token(node):
         return None
-    return _fields("pose mass")
+    return _MASS
 
 
 def _of_material(node: Node) -> frozenset[str] | None:
     """Whether a material is a color and no more; any other one is taken whole while the file shows the same look."""
     color = node.diffuse if isinstance(node, Material) else None
-    is_color = color is not None and node == Material.unchecked(ambient=color, diffuse=color)
-    is_whole = len(color or ()) == _WITH_ALPHA and all(0.0 <= part <= 1.0 for part in color or ())
-    return _fields("ambient diffuse") if is_color and is_whole else None
+    if color is None or len(color) != _WITH_ALPHA or not all([0.0 <= part <= 1.0 for part in color]):
+        return None
+    return _COLORS if node == Material.unchecked(ambient=color, diffuse=color) else None
 
 
 _WITH_ALPHA = 4
@@ -99,26 +99,34 @@ def _of_joint(node: Node) -> frozenset[str] | None:
     if not isinstance(node, Joint):
         return None
     if node.type == "fixed":  # a body in a body, without a joint that could have a name
-        return _fields("name parent")
-    return _fields("name parent child pose")
+        return _FIXED
+    return _HELD
 
 
 def _of_mimic(node: Node) -> frozenset[str] | None:
     """Whether a mimic is a polynomial as it is; one with a reference is taken whole while it agrees with that."""
     has_reference = isinstance(node, Mimic) and bool(node.reference)
-    return None if has_reference else _fields("joint axis multiplier offset")
+    return None if has_reference else _POLYNOMIAL
 
 
 def _of_dynamics(node: Node) -> frozenset[str] | None:
     has_spring = isinstance(node, Dynamics) and bool(node.spring_stiffness)
-    said = _fields("damping friction spring_stiffness")
-    return said | {"spring_reference"} if has_spring else said
+    return _SPRING if has_spring else _DAMPING
 
 
 def _fields(names: str) -> frozenset[str]:
     return frozenset(names.split())
 
 
+_COLORS = _fields("ambient diffuse")
+_DAMPING = _fields("damping friction spring_stiffness")
+_FIXED = _fields("name parent")
+_HELD = _fields("name parent child pose")
+_MASS = _fields("pose mass")
+_PLACED = _fields("name pose")
+_POLYNOMIAL = _fields("joint axis multiplier offset")
+_SHAPE = _fields("shape")
+_SPRING = _DAMPING | {"spring_reference"}
 _SHAPES: Mapping[type[Node], frozenset[str]] = {
     Box: _fields("size"),
     Capsule: _fields("radius length"),

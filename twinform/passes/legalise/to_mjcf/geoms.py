@@ -105,7 +105,6 @@ def _shape_of(context: MjcfContext, body: Body, part: AnyPart) -> Solid | None:
     """The shape of a visual or collision; None where MJCF has none for it, which is reported."""
     written = part.geometry.shape if part.geometry else None
     if written is None or isinstance(written, Empty):
-        context.leave(part, part)
         return None
     try:
         # A mesh stands for a shape that MJCF lacks.
@@ -113,14 +112,10 @@ def _shape_of(context: MjcfContext, body: Body, part: AnyPart) -> Solid | None:
         shape = replaced.geometry.shape if replaced.geometry and replaced.geometry.shape else written
         found = _solid(context, body, shape, _kept_size(part))
     except NoMeshError as error:
-        context.leave(part, part)
         message = f"{_called(part, body)} is a {written.kind}, which MJCF does not have"
         context.sink.report(rules.UNSAYABLE_SHAPE, message, part.location, found=written.kind, help=str(error))
         return None
-    if found is None:
-        context.leave(part, part)
-    elif isinstance(found, str):
-        context.leave(part, part)
+    if isinstance(found, str):
         context.sink.report(rules.UNSAYABLE_SHAPE, f"{_called(part, body)} {found}", part.location, found=written.kind)
         return None
     return found

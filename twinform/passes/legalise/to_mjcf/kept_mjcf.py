@@ -4,7 +4,7 @@ A joint that was read with an armature holds `<tf:mjcf><joint armature="0.1"/></
 element lacks are added, and children go behind its own; what the node says itself wins.
 """
 
-from collections.abc import Iterator
+from collections.abc import Sequence
 
 from twinform.ir import Element, Node
 from twinform.passes.carriers.carriers import NAMESPACE
@@ -12,11 +12,10 @@ from twinform.passes.carriers.carriers import NAMESPACE
 KEPT = f"{{{NAMESPACE}}}mjcf"
 
 
-def kept_elements(node: Node) -> Iterator[Element]:
-    """Yield the elements of MJCF that a node keeps."""
-    for part in node.opaque:
-        if part.element is not None and part.element.name == KEPT:
-            yield from part.element.children
+def kept_elements(node: Node) -> Sequence[Element]:
+    """The elements of MJCF that a node keeps."""
+    kept = [each.element for each in node.opaque if each.element is not None and each.element.name == KEPT]
+    return [child for each in kept for child in each.children] if kept else ()
 
 
 def with_kept(element: Element, node: Node) -> Element:

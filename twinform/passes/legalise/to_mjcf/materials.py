@@ -3,12 +3,11 @@
 from pathlib import PurePosixPath
 
 from twinform.diagnostics import Location, rules
-from twinform.ir import Collision, Material, Visual
+from twinform.ir import Collision, Visual
 from twinform.passes.legalise.to_mjcf.assets import file_path
 from twinform.passes.legalise.to_mjcf.elements import Value, attribute_text, make_element
 from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements
-from twinform.passes.legalise.to_mjcf.looks import MAPS, Look, emission, is_plain, look
-from twinform.passes.legalise.to_mjcf.said_parts import without_elements
+from twinform.passes.legalise.to_mjcf.looks import Look, look
 from twinform.passes.legalise.to_mjcf.writing_context import Body, MjcfContext
 
 _IMAGES = frozenset({".png", ".ktx"})
@@ -27,7 +26,6 @@ def look_of(context: MjcfContext, body: Body, visual: Visual, twin: Collision | 
     if kept is not None:
         return _of_kept_material(context, kept, found)
     textures = _textures(context, visual, found)
-    context.leave(visual, unsaid_visual(visual))
     if not found.material and not textures:
         return [("rgba", found.rgba)]
     return [("material", _material(context, body, visual, found, textures))]
@@ -85,30 +83,3 @@ def _texture(context: MjcfContext, uri: str, where: Location) -> str | None:
         context.add("asset", make_element("texture", [("name", name), ("type", "2d"), ("file", file)]))
         context.files[key] = name
     return context.files[key]
-
-
-def unsaid_visual(visual: Visual) -> Visual:
-    """What MJCF leaves of a visual and of its material."""
-    left = without_elements(visual, {"transparency"})
-    return left if left.material is None else left.copy(material=unsaid_material(left.material))
-
-
-def unsaid_material(material: Material) -> Material:
-    """What MJCF does not say of a material: colors that are no gray, scripts, and images of other roles."""
-    said = {"shininess", "pbr/metal/roughness", "pbr/metal/metalness", *(f"pbr/metal/{name}" for name in MAPS)}
-    left = without_elements(material, said).copy(diffuse=None)
-    if material.ambient == material.diffuse:
-        left = left.copy(ambient=None)
-    if is_plain(material.specular):
-        left = left.copy(specular=None)
-    if _shines_in_its_color(material):
-        left = left.copy(emissive=None)
-    return left
-
-
-def _shines_in_its_color(material: Material) -> bool:
-    if material.emissive is None or not any(material.emissive[:3]):
-        return True
-    factor = emission(material)
-    pairs = zip(material.emissive[:3], (material.diffuse or (0.0, 0.0, 0.0))[:3], strict=True)
-    return all(abs(own * factor - shining) < 1e-9 for shining, own in pairs)

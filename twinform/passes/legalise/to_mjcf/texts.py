@@ -35,6 +35,7 @@ from twinform.ir import (
     World,
 )
 from twinform.ir.frames import MODEL, WORLD, FrameGraph
+from twinform.ir.rewrite import classes_below
 from twinform.ir.transform import Transform
 from twinform.passes.carriers.annotations import FROM, annotation, came_from, is_synthesized
 from twinform.passes.carriers.carriers import NAMESPACE, to_element, without_ours
@@ -69,14 +70,18 @@ from twinform.passes.sdf_versions import sdf_version_read
 from twinform.passes.shared.poses import OFFSET, POSE, offset_attributes, pose_attributes
 from twinform.schemas import XmlElement, format_value, parse_version, versions_of
 
-_MARK = f"{{{NAMESPACE}}}{REST}"
+_OURS = f"{{{NAMESPACE}}}"
+_MARK = f"{_OURS}{REST}"
 _GROUPS = frozenset({"axis", "axis2", "limit", "dynamics", "surface"})
 """Elements that only group others: what is in them counts, and not they themselves."""
 _ALWAYS_THE_FIRST = frozenset(each for each in versions_of("sdf") if parse_version(each) < (1, 7))
 """The versions of SDF in which the canonical link cannot be named."""
 _DIRECTED = frozenset({"revolute", "continuous", "prismatic", "universal", "revolute2", "screw"})
 """The types of joints whose axes MJCF says."""
-_OF_AXES = (Axis, Limit, Dynamics, Mimic)
+_WITHOUT_NOTES = frozenset(
+    each for each in classes_below(Document) - {Document, World} if "pose" not in each.field_names
+)
+"""The classes of nodes on which there are never notes, such as those of shapes: they have no pose and no geom."""
 Shape = Visual | Collision
 Names = dict[tuple[type[Shape], str, str | None], str]
 """The names in MJCF of visuals and collisions, by the scoped name of the link and their own."""
@@ -98,6 +103,11 @@ def add_texts(context: MjcfContext) -> None:
     for kind, parts in (("link", model.links), ("joint", model.joints), ("frame", model.frames)):
         for each in parts:
             texts.add(kind, each.name, texts.in_its_link(each) if isinstance(each, Frame) else each)
+
+
+def _is_rest(xml: XmlElement) -> bool:
+    """Whether a partial element belongs to one that MJCF says."""
+    return next(xml.iterchildren(_MARK), None) is not None
 
 
 def _only_holds(joint: Joint) -> bool:
@@ -189,9 +199,7 @@ class _Texts:
         """The fields of a node that this file says, and what its writer left of it."""
         if isinstance(node, World):
             return Left(self._without_parts(node), frozenset({EXISTENCE}))
-        if isinstance(node, Visual | Collision):  # a look that comes back is compared, and taken whole
-            return self._said(node)
-        left = self._left_of(node)
+        left = self._left_of(node) if self.context.left else None
         if left is None:
             return self._said(node)
         if isinstance(left, Sensor):
@@ -212,18 +220,28 @@ class _Texts:
         return {(type(node), id(node.source)): left for node, left in self.context.left.values() if node.source}
 
     def _said(self, node: Node) -> frozenset[str] | None:
-        if isinstance(node, Light):
-            return frozenset({EXISTENCE})
+        match node:
+            case Light():
+                return frozenset({EXISTENCE})
+            case Axis() | Limit() | Dynamics() | Mimic() if self.joint is not None:
+                return self._said_of_axis(node, self.joint)
+            case Joint():
+                return self._said_of_joint(node)
+            case Visual() | Collision() | Link() | Frame():
+                return said_by_mjcf(node) if self._is_written(node) else None
+            case _:
+                return said_by_mjcf(node)
+
+    def _said_of_axis(self, node: Axis | Limit | Dynamics | Mimic, joint: Joint) -> frozenset[str] | None:
+        """The fields that this file says of an axis, or of a group of values in one."""
         # A loop is held at points, which do not say how it turns there.
-        if isinstance(node, _OF_AXES) and self.joint is not None and self.joint.name in self.closing:
+        if joint.name in self.closing:
             return None
-        if isinstance(node, Limit) and self.joint is not None:
-            return said_of_limit(node, self.joint)
-        if isinstance(node, Axis) and self.joint is not None and self.joint.type not in _DIRECTED:
-            return None if self.joint.type == "fixed" else frozenset()
-        if isinstance(node, Joint):
-            return self._said_of_joint(node)
-        return said_by_mjcf(node) if self._is_written(node) else None
+        if isinstance(node, Limit):
+            return said_of_limit(node, joint)
+        if isinstance(node, Axis) and joint.type not in _DIRECTED:
+            return None if joint.type == "fixed" else frozenset()
+        return said_by_mjcf(node)
 
     def _said_of_joint(self, joint: Joint) -> frozenset[str] | None:
         if joint.name in self.closing:
@@ -234,13 +252,13 @@ class _Texts:
             return frozenset({"name", "parent", "pose"})
         return said_by_mjcf(joint) if joint.name in self.context.written_joints or _only_holds(joint) else None
 
-    def _is_written(self, node: Node) -> bool:
-        """Whether there is an element for a node, if it is of a kind that has one."""
-        if isinstance(node, Visual | Collision):
-            return self._key(node) in self.geoms
+    def _is_written(self, node: Shape | Link | Frame) -> bool:
+        """Whether there is an element for a node."""
         if isinstance(node, Link):
             return node.name in self.context.written_bodies
-        return not isinstance(node, Frame) or node.name in self.context.names.get("site", ())
+        if isinstance(node, Frame):
+            return node.name in self.context.names.get("site", ())
+        return self._key(node) in self.geoms
 
     def _without_parts(self, world: World) -> World:
         """What is left of a world, without what is flattened or has texts of its own."""
@@ -249,6 +267,9 @@ class _Texts:
 
     def notes(self, node: Node) -> tuple[Opaque, ...]:
         """The annotations on a node about its names in MJCF, and about the frames and notation of its poses."""
+        return () if node.__class__ in _WITHOUT_NOTES else self._notes(node)
+
+    def _notes(self, node: Node) -> tuple[Opaque, ...]:
         found = [annotation(WRITTEN, attributes={"as": name}) for name in self._other_names(node)]
         match node:
             case Document():
@@ -465,9 +486,9 @@ class _Texts:
         for child in xml:
             tag = str(child.tag)
             # By its child a joint is known that has no name in MJCF, which says it as well.
-            if tag.startswith(f"{{{NAMESPACE}}}") or (tag == "child" and xml.find(_MARK) is not None):
+            if tag.startswith(_OURS) or (tag == "child" and _is_rest(xml)):
                 continue
-            if tag in _GROUPS or child.find(_MARK) is not None:
+            if tag in _GROUPS or _is_rest(child):
                 self._account(child, what, node)
                 continue
             weight = sum(1 + len(each.attrib) for each in child.iter())
