@@ -301,8 +301,9 @@ class TextOutput:
         """Names where an untyped element declares namespaces: its own is the default, if all names in it have one."""
         namespace = _namespace(element.name)
         attributes = [name for name, _ in element.attributes]
-        in_use = any(name.startswith(f"{{{namespace}}}") for name in attributes)
-        if namespace in names.prefixes or in_use or not all(each.name.startswith("{") for each in element.walk()):
+        in_use = attributes and any(name.startswith(f"{{{namespace}}}") for name in attributes)
+        is_mixed = not namespace or (element.children and any(each.name[0] != "{" for each in element.walk()))
+        if namespace in names.prefixes or in_use or is_mixed:
             return self._declared([element.name, *attributes], names)
         next(self._made_up)  # lxml counts these too
         prefixes = {uri: prefix for uri, prefix in names.prefixes.items() if prefix or not uri}

@@ -60,7 +60,7 @@ POSE = "pose"
 
 def pose_attributes(written: Pose | None) -> dict[str, str | None]:
     """The attributes of the annotation on a pose; none for the default frame and notation."""
-    if written is None:
+    if written is None or (written.relative_to is written.degrees is written.rotation_format is None):
         return {}
     degrees = None if written.degrees is None else str(written.degrees).lower()
     attributes = {"relative_to": written.relative_to, "degrees": degrees, "rotation_format": written.rotation_format}

@@ -117,10 +117,11 @@ def _only_holds(joint: Joint) -> bool:
 
 def _axes_note(inertial: Inertial, pose: Pose) -> list[Opaque]:
     """The annotation of the axes of an inertia, which MJCF writes in those of the body where it has products."""
-    turn = Transform.from_pose(pose.copy(relative_to=None))
     inertia = inertial.inertia
-    has_products = inertia is not None and any((inertia.ixy, inertia.ixz, inertia.iyz))
-    if turn.is_unturned or not has_products:
+    if inertia is None or not (inertia.ixy or inertia.ixz or inertia.iyz):
+        return []
+    turn = Transform.from_pose(pose)
+    if turn.is_unturned:
         return []
     rpy = " ".join(map(format_value, turn.rpy()))
     return [annotation(AXES, attributes={"rpy": rpy})]
