@@ -134,6 +134,8 @@ def rounded(vector: Vector3) -> Vector3:
 def _rounded(number: float) -> float:
     # Poses composed along a chain of frames end in 0.30000000000000004.
     short = round(number, _DIGITS)
+    if short == number:  # as most are
+        return short + 0.0
     return short + 0.0 if abs(number - short) <= _NOISE * max(1.0, abs(number)) else number
 
 

@@ -87,7 +87,7 @@ def _of_inertial(node: Node) -> frozenset[str] | None:
 def _of_material(node: Node) -> frozenset[str] | None:
     """Whether a material is a color and no more; any other one is taken whole while the file shows the same look."""
     color = node.diffuse if isinstance(node, Material) else None
-    if color is None or len(color) != _WITH_ALPHA or not all([0.0 <= part <= 1.0 for part in color]):
+    if color is None or len(color) != _WITH_ALPHA or not all(0.0 <= part <= 1.0 for part in color):
         return None
     return _COLORS if node == Material.unchecked(ambient=color, diffuse=color) else None
 

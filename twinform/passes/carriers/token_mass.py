@@ -21,6 +21,11 @@ CHAIN_MASS = 2e-6
 
 That is `CreateSDF` of parser_urdf.cc, where a mass equals 0.0 by the tolerance of gz-math.
 """
+UNSAID = "unsaid"
+"""The annotation on an SDF inertial that lists what URDF leaves out: `<tf:unsaid>inertia</tf:unsaid>`, or `inertial`.
+
+Where URDF has zero, and a token stands in SDF, it is `zero-mass` and `zero-inertia`.
+"""
 TOKEN = Inertial.unchecked(
     mass=TOKEN_MASS,
     inertia=Inertia.unchecked(ixx=TOKEN_MOMENT, ixy=0.0, ixz=0.0, iyy=TOKEN_MOMENT, iyz=0.0, izz=TOKEN_MOMENT),

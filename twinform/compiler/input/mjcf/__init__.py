@@ -8,7 +8,6 @@ links, joints and frames, and carriers add what MJCF cannot say.
 from twinform.compiler.input.load_options import LoadOptions
 from twinform.compiler.input.mjcf.carried_texts import take_texts
 from twinform.compiler.input.mjcf.lower import lower
-from twinform.compiler.input.mjcf.merge_texts import merge_texts
 from twinform.compiler.input.mjcf.normalize import normalize
 from twinform.compiler.input.mjcf.note_notation import note_notation
 from twinform.ir import Document
@@ -27,4 +26,9 @@ def lower_mjcf(root: XmlElement, context: Context, load_options: LoadOptions) ->
         return None
     note_notation(root, context.sink)
     texts = take_texts(canonical, context)
-    return merge_texts(lower(canonical, context, load_options, root), texts, canonical, context.sink)
+    document = lower(canonical, context, load_options, root)
+    if not texts:
+        return document
+    from twinform.compiler.input.mjcf.merge_texts import merge_texts  # noqa: PLC0415 - most files have no carriers
+
+    return merge_texts(document, texts, canonical, context.sink)

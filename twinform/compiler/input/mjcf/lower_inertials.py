@@ -21,8 +21,7 @@ from twinform.ir.solids import (
 )
 from twinform.ir.transform import Matrix3, Transform
 from twinform.passes.carriers.annotations import with_annotation
-from twinform.passes.carriers.token_mass import TOKEN
-from twinform.passes.legalise.to_sdf.root_masses import UNSAID
+from twinform.passes.carriers.token_mass import TOKEN, UNSAID
 
 DENSITY = 1000.0
 """In kg/m^3, of a geom that says nothing about its mass."""

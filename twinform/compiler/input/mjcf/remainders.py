@@ -11,7 +11,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import TypeVar
 
 from twinform.compiler.input.mjcf.pieces import Piece
-from twinform.diagnostics import DiagnosticSink, Fate, Location, Rule, rules
+from twinform.diagnostics import NOWHERE, DiagnosticSink, Fate, Location, Rule, rules
 from twinform.ir import Element, Node, Opaque
 from twinform.passes.carriers.carriers import NAMESPACE
 from twinform.schemas import XmlElement
@@ -84,10 +84,11 @@ class RemainderKeeper:
         """Return the element with the attributes that no node says, and with all in it that is not settled yet."""
         piece.is_settled = True
         left = piece.untaken
+        where = piece.location if left else NOWHERE
         for name, _ in left:
             piece.kept.add(name)
             message = f"{name} of <{piece.tag}>{_called(piece)} is kept as it is: {reason(name, piece.tag)}"
-            self._carry(message, piece.location.at(f"@{name}"), int(name in self._attributes_of(piece)))
+            self._carry(message, where.at(f"@{name}"), int(name in self._attributes_of(piece)))
         inside = tuple([self.whole(each) for each in piece.inside if not each.is_settled]) if with_inside else ()
         return Element.unchecked(name=piece.tag, attributes=left, children=inside, source=piece.source)
 

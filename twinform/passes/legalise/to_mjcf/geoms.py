@@ -31,6 +31,7 @@ from twinform.passes.legalise.to_mjcf.contacts import touch_of
 from twinform.passes.legalise.to_mjcf.elements import Attributes, Value, make_element, placement
 from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements, with_kept
 from twinform.passes.legalise.to_mjcf.materials import look_of
+from twinform.passes.legalise.to_mjcf.plane_sizes import ENDLESS, GRID
 from twinform.passes.legalise.to_mjcf.said_parts import without_elements
 from twinform.passes.legalise.to_mjcf.writing_context import Body, MjcfContext
 from twinform.passes.mesh_jobs.mesh_files import NoMeshError
@@ -40,10 +41,6 @@ _SEEN, _TOUCHED = 2, 3
 """The groups of visuals and of collisions."""
 _UNTOUCHED: Attributes = (("contype", "0"), ("conaffinity", "0"))
 _WEIGHTLESS: Attributes = (("density", "0"),)
-ENDLESS = 200.0
-"""The size in m that a plane without an end has in SDF, where it only matters for what is seen."""
-GRID = 1.0
-"""The distance in m of the lines that are drawn on a plane."""
 _UP: Vector3 = (0.0, 0.0, 1.0)
 
 

@@ -6,7 +6,7 @@ from typing import ClassVar
 from twinform.diagnostics import DiagnosticSink, Fate, rules
 from twinform.ir import Format, Inertia, Inertial, Link, Model
 from twinform.passes.carriers.annotations import came_from, with_annotation
-from twinform.passes.carriers.token_mass import MOMENTS, TOKEN, TOKEN_MASS, TOKEN_MOMENT
+from twinform.passes.carriers.token_mass import MOMENTS, TOKEN, TOKEN_MASS, TOKEN_MOMENT, UNSAID
 from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.legalise.to_sdf.frame_links import is_massless
 
@@ -19,12 +19,6 @@ _NONE = Inertial.unchecked(mass=0.0, inertia=_NO_INERTIA)
 # in gz-physics 5; the rover falls in Bullet, and moves in DART as the lumped one to 1e-5.
 _MASS = ("mass", f"{TOKEN_MASS:g} kg")
 _INERTIA = ("inertia", f"{TOKEN_MOMENT:g} kg m^2")
-
-UNSAID = "unsaid"
-"""The annotation on an SDF inertial that lists what URDF leaves out: `<tf:unsaid>inertia</tf:unsaid>`, or `inertial`.
-
-Where URDF has zero, and a token stands in SDF, it is `zero-mass` and `zero-inertia`.
-"""
 
 
 class UrdfBodies(ModelPass):

@@ -5,11 +5,10 @@ from typing import ClassVar, TypeVar
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Collision, Format, Inertia, Inertial, Link, Model, Visual, replace_fields
 from twinform.passes.carriers.annotations import came_from, find_annotation, without_annotation
-from twinform.passes.carriers.token_mass import MOMENTS, has_token_inertia, has_token_mass, is_token
+from twinform.passes.carriers.token_mass import MOMENTS, UNSAID, has_token_inertia, has_token_mass, is_token
 from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.legalise.changed_names import NAME
 from twinform.passes.legalise.to_sdf.name_shapes import UNNAMED
-from twinform.passes.legalise.to_sdf.root_masses import UNSAID
 
 Shape = TypeVar("Shape", Visual, Collision)
 
