@@ -4,6 +4,7 @@ from collections.abc import Iterator
 
 from twinform.diagnostics import DiagnosticSink, Fate, Location, rules
 from twinform.schemas import XmlElement, path_of
+from twinform.schemas.xml import Places
 
 _CLASSES = ("class", "childclass")
 _SETTINGS = (
@@ -23,13 +24,14 @@ _EXPANDED = {
 
 def note_notation(root: XmlElement, sink: DiagnosticSink) -> None:
     """Enter into the ledger what is written into each element that it is about, and is not written by itself again."""
+    places: Places = {}
     for tag, message in _EXPANDED.items():
         for element in root.iter(tag):
-            where = Location(line=element.sourceline or 0, path=path_of(element))
+            where = Location(line=element.sourceline or 0, path=path_of(element, places))
             weight = sum(1 + len(each.keys()) for each in element.iter("*"))
             sink.account(Fate.APPROXIMATED, rules.MJCF_ONLY, message, where, weight)
     for element, name in _notation(root):
-        where = Location(line=element.sourceline or 0, path=f"{path_of(element)}/@{name}")
+        where = Location(line=element.sourceline or 0, path=f"{path_of(element, places)}/@{name}")
         what = f"{name}={element.get(name)!r} of <{element.tag}>"
         message = f"{what} is not written by itself: each element says what it says of it"
         sink.account(Fate.APPROXIMATED, rules.MJCF_ONLY, message, where)
