@@ -1,5 +1,7 @@
 """Is our MJCF the same robot: as MuJoCo reads the URDF itself, and as Drake reads the SDF?"""
 
+import re
+
 from reports.harness.known import Known
 from reports.harness.needs import corpus, drake, mujoco
 from reports.harness.sample import Sample
@@ -23,6 +25,8 @@ meshes, so that each is a box, or left out.
 *Same without `<inertial>`* means: MuJoCo's URDF reader gives a link without `<inertial>` the mass that its collisions
 have at 1000 kg/m³. URDF says that it has none, and so does our MJCF; with that, the two agree. *Source not taken* are
 files that MuJoCo, or Drake, refuses before they are converted."""
+_PLACE = re.compile(r"^\S*/\S+: |\S*/(?=[^/\s]+$)")
+"""Where a reader found something: a path with a line, or a folder."""
 ODD = frozenset({Verdict.REFUSED, Verdict.DIFFERENT, Verdict.NOT_WRITTEN})
 
 
@@ -52,7 +56,8 @@ def why(one: Outcome) -> str:
 
 def _shortened(cause: str, most: int = 90) -> str:
     """A complaint without the names in it, so that like ones are counted together."""
-    text = cause.partition("Element")[0].partition("'")[0].strip()
+    cause = _PLACE.sub("", cause)
+    text = cause.partition("Element")[0].partition("'")[0].partition("[")[0].strip()
     return text[:most] or cause[:most]
 
 

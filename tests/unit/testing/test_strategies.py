@@ -82,7 +82,7 @@ IMPOSSIBLE: dict[str, Callable[[], Any]] = {
     "a joint that URDF does not have": lambda: strategies.joints(types=("ball",)),
     "a joint that SDF does not have": lambda: strategies.joints(format="sdf", types=("floating",)),
     "a version that there is not": lambda: xml_documents(version="3.0"),
-    "a format that there is not": lambda: strategies.links(format="mjcf"),
+    "a format that there is not": lambda: strategies.links(format="usd"),
 }
 
 

@@ -82,6 +82,11 @@ def _files_of(endings: tuple[str, ...]) -> Provider:
     return partial(propose_files, endings=endings)
 
 
+def _files_beside(place: ValuePlace) -> Iterator[Proposal]:
+    """Propose files for `include` of MJCF, which knows no schemes."""
+    return (each for each in propose_files(place, endings=MJCF) if "://" not in each.label)
+
+
 _BY_ROW: Mapping[str, Provider] = {
     "robot/@version": _versions,
     "sdf/@version": _versions,
@@ -117,7 +122,7 @@ _MAPS = frozenset({
 })  # fmt: skip
 _BY_ELEMENT: Mapping[tuple[str, str | None], Provider] = {
     ("xacro:include", "filename"): _files_of(XACROS),
-    ("include", "file"): _files_of(MJCF),
+    ("include", "file"): _files_beside,
     ("material", None): _materials,
     **VALUES_OF_XACRO,
     **{(name, None): _files_of(IMAGES) for name in _MAPS},

@@ -57,16 +57,15 @@ def _why_unread(context: MjcfContext, mesh: Mesh, uri: str) -> str | None:
         )
     if mesh.scale is not None and 0.0 in mesh.scale:
         return "has a scale of 0, which MuJoCo refuses"
-    if kind == "stl" and (path := _find(context, uri)) is not None and not _is_binary_stl(path):
+    if kind == "stl" and (path := _find(context, uri)) is not None and not _is_binary_stl(context, path):
         return "is STL as text, and MuJoCo reads it as binary alone"
     return None
 
 
-def _is_binary_stl(path: Path) -> bool:
+def _is_binary_stl(context: MjcfContext, path: Path) -> bool:
     """Whether a file has the size that its number of triangles asks for; true where it cannot be read."""
     try:
-        with path.open("rb") as file:
-            head = file.read(_HEADER)
+        head = context.assets.readable.read(path, _HEADER)[:_HEADER]
         size = path.stat().st_size
     except OSError:
         return True
