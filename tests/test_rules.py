@@ -100,8 +100,9 @@ def _found() -> dict[str, set[str]]:
     for case in cases(_CASES / "includes"):
         checked = twinform.check(case.path, expand_includes=True, paths=[_PARTS])
         found[_name(case)] = _rules(checked.diagnostics)
-    for case in cases(_CASES / "convert"):
-        found[_name(case)] = set(_of_conversion(case, None))
+    for folder in ("convert", "from_mjcf"):
+        for case in cases(_CASES / folder):
+            found[_name(case)] = set(_of_conversion(case, None))
     for case in cases(_CASES / "versions"):
         found[_name(case)] = set(_of_conversion(case, "1.4"))
     for case in mjcf_cases(_CASES / "to_mjcf"):
