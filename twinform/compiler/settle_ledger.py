@@ -8,6 +8,7 @@ the place has.
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
+from itertools import islice
 
 from twinform.compiler.audit_mjcf import name_in_sdf
 from twinform.diagnostics import Fate, LedgerEntry
@@ -18,17 +19,24 @@ _WORST_FIRST = (Fate.DROPPED, Fate.CARRIED, Fate.APPROXIMATED)
 _PREDICATE = lazy_pattern(r"\[[^]]*+\]?|\{[^}]*+\}?|(?<=[/@])[\w.-]+:")
 _Part = tuple[XmlElement, str]
 """An element, and the name of one of its attributes, or nothing for the element itself."""
+_Place = tuple[int, str, str]
+"""A line, a path without names, and the name of an attribute or nothing."""
 
 
 def settle(entries: Sequence[LedgerEntry], root: XmlElement) -> tuple[LedgerEntry, ...]:
     """Return the entries in their order, with weights that together count each part of the tree at most once."""
     elements = _elements_by_place(root)
     taken: set[_Part] = set()
+    # What is taken stays so: the next entry about a place goes on where the one before it stopped. All the elements
+    # of a file on one line are at few places.
+    parts: dict[_Place, Iterator[_Part]] = {}
     weights = [entry.weight for entry in entries]
     for number in sorted(range(len(entries)), key=lambda number: _WORST_FIRST.index(entries[number].fate)):
         entry = entries[number]
-        free = (part for part in _parts_of(entry, elements) if part not in taken)
-        mine = [part for part, _ in zip(free, range(entry.weight), strict=False)]
+        place = _place_of(entry)
+        if place not in parts:
+            parts[place] = _parts_of(place, elements)
+        mine = [*islice((part for part in parts[place] if part not in taken), entry.weight)]
         taken.update(mine)
         weights[number] = len(mine)
     return tuple(
@@ -53,10 +61,15 @@ def _elements_by_place(root: XmlElement) -> dict[tuple[int, str], list[XmlElemen
     return found
 
 
-def _parts_of(entry: LedgerEntry, elements: dict[tuple[int, str], list[XmlElement]]) -> Iterator[_Part]:
-    """Yield the parts that an entry may be about: those of its element, and then of what is in it."""
+def _place_of(entry: LedgerEntry) -> _Place:
     path, _, attribute = bare_path(entry.location.path).partition("/@")
-    found = elements.get((entry.location.line, path), ())
+    return entry.location.line, path, attribute
+
+
+def _parts_of(place: _Place, elements: dict[tuple[int, str], list[XmlElement]]) -> Iterator[_Part]:
+    """Yield the parts that an entry about a place may be about: those of its element, and then of what is in it."""
+    line, path, attribute = place
+    found = elements.get((line, path), ())
     if attribute:
         names = ((each, str(name)) for each in found for name in each.keys())  # noqa: SIM118 - see `_own_parts`
         yield from ((each, name) for each, name in names if name_in_sdf(each, name) == attribute)

@@ -54,6 +54,14 @@ def scoped_links(model: Model) -> Iterator[tuple[str, Link]]:
     return ((f"{scope}{link.name}", link) for scope, each in scoped_models(model) for link in each.links)
 
 
+def scopes_of(name: str) -> Iterator[str]:
+    """Yield the models that a scoped name is in, from the outside in: `a` and `a::b` for `a::b::c`."""
+    end = name.find(SCOPE)
+    while end >= 0:
+        yield name[:end]
+        end = name.find(SCOPE, end + 1)
+
+
 def nested_includes(model: Model) -> Iterator[Include]:
     """The includes of a model and of all models nested in it."""
     return (include for each in nested_models(model) for include in each.includes)

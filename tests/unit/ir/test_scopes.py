@@ -2,7 +2,15 @@
 
 from twinform.ir import Document, Format, Include, Link, Model, World
 from twinform.ir.groups import Groups, tops
-from twinform.ir.scopes import nested_includes, nested_models, nested_names, outer_models, scoped_links, scoped_models
+from twinform.ir.scopes import (
+    nested_includes,
+    nested_models,
+    nested_names,
+    outer_models,
+    scoped_links,
+    scoped_models,
+    scopes_of,
+)
 
 _GRIPPER = Model(name="gripper", links=(Link(name="palm"),), includes=(Include(uri="model://finger"),))
 _ARM = Model(name="arm", links=(Link(name="elbow"),), models=(_GRIPPER,))
@@ -20,6 +28,12 @@ def test_models_come_from_the_outside_in_with_the_prefixes_of_their_names() -> N
     assert [*nested_names(_ROBOT)] == ["arm", "arm::gripper", "head"]
     assert [name for name, _ in scoped_links(_ROBOT)] == ["base", "arm::elbow", "arm::gripper::palm"]
     assert [each.uri for each in nested_includes(_ROBOT)] == ["model://finger"]
+
+
+def test_a_scoped_name_is_in_models_from_the_outside_in() -> None:
+    assert [*scopes_of("arm::gripper::palm")] == ["arm", "arm::gripper"]
+    assert [*scopes_of("base")] == []
+    assert [*scopes_of("a:::b")] == ["a", "a:"]  # as every text that the name begins with, before `::`
 
 
 def test_models_of_worlds_are_outer_ones() -> None:

@@ -1,5 +1,6 @@
 """Nested models from names such as `arm::hand`, since SDF 1.8."""
 
+from collections import defaultdict
 from dataclasses import field
 from functools import partial
 from typing import ClassVar, TypeVar
@@ -22,7 +23,7 @@ from twinform.ir import (
 )
 from twinform.ir.defaults import direction
 from twinform.ir.frames import MODEL, WORLD, FrameGraph
-from twinform.ir.scopes import SCOPE
+from twinform.ir.scopes import SCOPE, scopes_of
 from twinform.passes.carriers.sdf_versions import VersionKeeper
 from twinform.passes.sdf_versions.version_pass import VersionPass
 
@@ -119,13 +120,15 @@ def nest(model: Model, sink: DiagnosticSink, among: frozenset[str] | None = None
     for nested in model.models:
         if name := first(nested.name):
             inner[name].models.append(nested)
-    made = [
-        _make_model(each, model, graph, sink, _scopes_inside(each, among))
+    inside = None if among is None else _scopes_inside(among)
+    made = {
+        each.name: _make_model(each, model, graph, sink, None if inside is None else frozenset(inside[each.name]))
         for each in inner.values()
         if each.holds_anything
-    ]
-    there = tuple(_add_found(nested, made) for nested in models)
-    new = tuple(nested for nested in made if nested.name not in {each.name for each in models})
+    }
+    there = tuple(_add_found(nested, made.get(nested.name)) for nested in models)
+    known = {each.name for each in models}
+    new = tuple(nested for nested in made.values() if nested.name not in known)
     update = {"links": tuple(links), "joints": tuple(joints), "frames": tuple(frames), "models": (*there, *new)}
     return model.copy(**update)
 
@@ -134,12 +137,16 @@ def _outermost_scope(among: frozenset[str] | None, name: str) -> str:
     """The model that a scoped name begins with."""
     if among is None:
         return name.partition(SCOPE)[0] if SCOPE in name else ""
-    return min((path for path in among if name.startswith(path + SCOPE)), key=len, default="")
+    return next((path for path in scopes_of(name) if path in among), "")
 
 
-def _scopes_inside(inner: _Inner, among: frozenset[str] | None) -> frozenset[str] | None:
-    """The models that are to be in a nested one, by their names in that."""
-    return among and frozenset(path.removeprefix(inner.prefix) for path in among if inner.holds(path))
+def _scopes_inside(among: frozenset[str]) -> dict[str, list[str]]:
+    """The models that are to be in each of the outermost ones, by their names in that."""
+    inside = defaultdict[str, list[str]](list)
+    for path in among:
+        if outermost := _outermost_scope(among, path):
+            inside[outermost].append(path.removeprefix(outermost + SCOPE))
+    return inside
 
 
 def _make_model(
@@ -218,9 +225,8 @@ def _move_axis(joint: Joint, axis: Axis | None, inner: _Inner, graph: FrameGraph
     return axis.copy(xyz=turn.rotate(direction(axis, Format.SDF)), expressed_in=None)
 
 
-def _add_found(nested: Model, made: list[Model]) -> Model:
+def _add_found(nested: Model, found: Model | None) -> Model:
     """A nested model that was there already, with what was found of it in the model around it."""
-    found = next((each for each in made if each.name == nested.name), None)
     if found is None:
         return nested
     update = {name: (*getattr(nested, name), *getattr(found, name)) for name in ("links", "joints", "frames", "models")}

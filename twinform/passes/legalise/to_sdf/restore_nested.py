@@ -7,7 +7,7 @@ from twinform.diagnostics import DiagnosticSink, Severity
 from twinform.diagnostics.rules import NESTED_MODEL, STALE_CARRIER
 from twinform.ir import IN_MODELS, Element, Format, Frame, Link, Model, Node, Opaque, Pose, map_references
 from twinform.ir.frames import MODEL, FrameError, FrameGraph
-from twinform.ir.scopes import SCOPE, nested_names
+from twinform.ir.scopes import SCOPE, nested_names, scopes_of
 from twinform.ir.transform import Transform
 from twinform.passes.carriers.absorb import CarrierError, absorb
 from twinform.passes.carriers.annotations import find_annotation, without_annotation, wrote_scopes
@@ -40,35 +40,41 @@ class NameScopes(ModelPass):
         own = [frame for frame in model.frames if find_annotation(frame, NESTED) is not None]
         if not own:
             return model
+        links = {link.name for link in model.links}
+        filled = _scopes_with_any(links)
         for frame in own:
-            _report_outside(frame, model, sink)
+            if frame.name in filled:
+                _report_outside(frame, links, sink)
         return renamed(model, {("frame", frame.name): f"{frame.name}{_OWN}" for frame in own}, Format.SDF)
 
 
 def _without_hollow(model: Model, sink: DiagnosticSink) -> Model:
     """The model without annotations of nested models that nothing is in."""
-    named = [node.name for node in (*model.links, *model.frames)]  # a joint goes where its links are
+    # a joint goes where its links are
+    filled = _scopes_with_any(node.name for node in (*model.links, *model.frames))
     frames: list[Frame] = []
     for frame in model.frames:
         found = find_annotation(frame, NESTED)
-        prefix = frame.name + SCOPE
         # Names tell what is in a nested model. After an edit that renamed all its parts an empty
         # model would be left, which SDF refuses.
-        if found is None or any(name.startswith(prefix) for name in named):
+        if found is None or frame.name in filled:
             frames.append(frame)
             continue
-        message = f"nothing is called {prefix!r} and more, so that {frame.name!r} is a frame and no model"
+        message = f"nothing is called {frame.name + SCOPE!r} and more, so that {frame.name!r} is a frame and no model"
         sink.report(STALE_CARRIER, message, frame.location, found=frame.name)
         frames.append(without_annotation(frame, NESTED))
     return model.copy(frames=tuple(frames))
 
 
-def _report_outside(frame: Frame, model: Model, sink: DiagnosticSink) -> None:
-    """The frame of a nested model moves with a link of that model, if it has any."""
-    links = {link.name for link in model.links}
+def _scopes_with_any(names: Iterable[str]) -> frozenset[str]:
+    """The nested models that any of these names is in."""
+    return frozenset(scope for name in names for scope in scopes_of(name))
+
+
+def _report_outside(frame: Frame, links: set[str], sink: DiagnosticSink) -> None:
+    """The frame of a nested model that has links moves with one of them."""
     holder = frame.attached_to or ""
-    own = [name for name in links if name.startswith(frame.name + SCOPE)]
-    if own and holder in links and holder not in own:
+    if holder in links and not holder.startswith(frame.name + SCOPE):
         message = f"link {frame.name!r} is the frame of a nested model in SDF, and is fixed to {holder!r} outside of it"
         sink.report(NESTED_MODEL, message, frame.location, found=holder, severity=Severity.ERROR)
 
@@ -111,12 +117,14 @@ def _report_frames_outside(model: Model, annotated: Iterable[str], sink: Diagnos
     """A frame in a nested model moves with a link of that model."""
     graph = FrameGraph(model)
     links = {link.name for link in model.links}
+    filled = _scopes_with_any(links)
+    order = {path: number for number, path in enumerate(annotated)}
     for frame in model.frames:
-        scope = next((path + SCOPE for path in annotated if frame.name.startswith(path + SCOPE)), "")
-        if frame.name.endswith(_OWN) or not any(scope and name.startswith(scope) for name in links):
+        path = min((path for path in scopes_of(frame.name) if path in order), key=order.__getitem__, default=None)
+        if frame.name.endswith(_OWN) or path not in filled:
             continue
         body = graph.body(frame.name, kind="frame")
-        if body in links and not body.startswith(scope):
+        if body in links and not body.startswith(path + SCOPE):
             message = f"frame {frame.name!r} is in a nested model, and is fixed to {body!r} outside of it"
             sink.report(NESTED_MODEL, message, frame.location, found=body, severity=Severity.ERROR)
 
