@@ -2,12 +2,11 @@
 
 from collections.abc import Iterator
 
-from twinform.ir import Collision, Surface
+from twinform.ir import Collision
 from twinform.passes.legalise.to_mjcf.contact_plan import USUAL, kept_bits
 from twinform.passes.legalise.to_mjcf.elements import Value, make_element
 from twinform.passes.legalise.to_mjcf.frictions import coefficient
 from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements
-from twinform.passes.legalise.to_mjcf.said_parts import without_elements
 from twinform.passes.legalise.to_mjcf.writing_context import Body, MjcfContext
 
 
@@ -41,8 +40,3 @@ def add_contacts(context: MjcfContext) -> None:
     for pair in context.contacts.excluded:
         one, other = (context.written_bodies[link] for link in pair)
         context.add("contact", make_element("exclude", [("body1", one), ("body2", other)]))
-
-
-def unsaid_surface(surface: Surface) -> Surface:
-    """What MJCF does not say of a surface."""
-    return without_elements(surface, {"contact/collide_bitmask", "contact/category_bitmask"})

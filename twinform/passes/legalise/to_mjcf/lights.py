@@ -12,8 +12,6 @@ from twinform.passes.legalise.to_mjcf.said_parts import (
     child_number,
     child_text,
     untyped,
-    without_elements,
-    without_fields,
 )
 from twinform.passes.legalise.to_mjcf.writing_context import Body, MjcfContext
 
@@ -22,12 +20,6 @@ _DOWN: Vector3 = (0.0, 0.0, -1.0)
 _WHITE, _FAINT = (1.0, 1.0, 1.0), (0.1, 0.1, 0.1)
 """The colors of a light of SDF that has none written."""
 _FADING = (("constant", 1.0), ("linear", 1.0), ("quadratic", 0.0))
-_FIELDS = ("type", "pose", "cast_shadows", "diffuse", "specular", "direction")
-_OF_ALL = frozenset(
-    {"light_on", "attenuation/range", "attenuation/linear", "attenuation/constant", "attenuation/quadratic"}
-)
-_OF_SPOTS = _OF_ALL | {"spot/outer_angle", "spot/falloff"}
-"""What MJCF says of a light."""
 
 
 def body_lights(context: MjcfContext, body: Body) -> list[Element]:
@@ -68,12 +60,6 @@ def light_attributes(light: Light, place: Transform) -> Attributes:
     if spot is not None:
         found += [("cutoff", _cutoff(spot)), ("exponent", _exponent(spot))]
     return found
-
-
-def unsaid_light(light: Light) -> Light:
-    """What MJCF does not say of a light, such as the factor `intensity` and the inner angle of a spot."""
-    elements = _OF_SPOTS if _kind(light) == "spot" else _OF_ALL
-    return without_elements(without_fields(light, _FIELDS), elements)
 
 
 def _kind(light: Light) -> str:

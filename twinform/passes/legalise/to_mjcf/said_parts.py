@@ -1,7 +1,7 @@
 """What is left of a node of SDF once MJCF has said a part of it: fields and untyped elements without that part."""
 
 import math
-from collections.abc import Collection, Iterable
+from collections.abc import Collection
 from typing import TypeVar
 
 from twinform.ir import Element, Node, Opaque
@@ -45,11 +45,6 @@ def child_vector(element: Element | None, *path: str) -> tuple[float, ...] | Non
     """The numbers at a path of names below an element; None where there are none."""
     text = child_text(element, *path)
     return None if text is None else tuple(map(float, text.split()))
-
-
-def without_fields(node: AnyNode, names: Iterable[str]) -> AnyNode:
-    """The node with None in these fields."""
-    return node.copy(**dict.fromkeys(names))
 
 
 def without_elements(node: AnyNode, paths: Collection[str]) -> AnyNode:
