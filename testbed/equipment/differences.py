@@ -153,7 +153,7 @@ def _of_sensors(before: RobotRow, after: RobotRow, names: Mapping[str, str]) -> 
             yield Difference("sensor", (row["inside"], row["name"]), "", "there", "missing")
             continue
         content, places = _content(row["text"], {}), {*map(_flat, (row["inside"], hosts.get(row["inside"], "")))}
-        found = min(named, key=lambda pair: (pair[1] != content, _flat(pair[0]["inside"]) not in places))
+        found = min(named, key=lambda pair: (_flat(pair[0]["inside"]) not in places, pair[1] != content))
         yield from _of_sensor(row, content, found[1])
         if _flat(found[0]["inside"]) not in places:
             yield Difference("sensor", (row["inside"], row["name"]), "parent", row["inside"], found[0]["inside"])
