@@ -6,7 +6,7 @@ the place has.
 """
 
 from collections import defaultdict
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from itertools import islice
 
@@ -79,11 +79,7 @@ def _parts_of(place: _Place, elements: dict[tuple[int, str], list[XmlElement]]) 
     for each in found:
         # the shapes of the world itself are an entry, and the bodies in it are none of them
         inside = (child for child in each if each.tag != "worldbody" or child.tag != "body")
-        yield from (part for child in inside for below in _elements(child) for part in _own_parts(below))
-
-
-def _elements(element: XmlElement) -> Iterable[XmlElement]:
-    return element.iter("*")
+        yield from (part for child in inside for below in child.iter("*") for part in _own_parts(below))
 
 
 def _own_parts(element: XmlElement) -> Iterator[_Part]:

@@ -15,7 +15,6 @@ from twinform.ir import (
     Collision,
     Document,
     Dynamics,
-    Element,
     Format,
     Frame,
     Geometry,
@@ -62,6 +61,7 @@ from twinform.passes.carriers.mjcf_texts import (
 from twinform.passes.carriers.partial_nodes import EXISTENCE, PLACE, REST, WRITTEN, Left, is_bare, remainder
 from twinform.passes.carriers.said_by_mjcf import said_by_mjcf, said_of_limit
 from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext
+from twinform.passes.legalise.to_mjcf.written_elements import WrittenElements
 from twinform.passes.legalise.to_urdf.express_axes import ExpressAxes
 from twinform.passes.legalise.to_urdf.flatten_for_urdf import flat_model
 from twinform.passes.legalise.to_urdf.resolve_joint_ends import ResolveJointEnds
@@ -138,6 +138,7 @@ class _Texts:
         self.joint: Joint | None = None
         self.link: Link | None = None
         self.geoms = self._written_geoms()
+        self.elements = WrittenElements(context)
 
     @cached_property
     def flat(self) -> Model:
@@ -323,7 +324,7 @@ class _Texts:
 
     def _look_note(self, visual: Visual) -> list[Opaque]:
         """The annotation of the elements that say how a visual looks, if they say it in another way than SDF."""
-        geom = self.geom_elements.get(self.geoms.get(self._key(visual), ""))
+        geom = self.elements.geoms.get(self.geoms.get(self._key(visual), ""))
         if geom is None or visual.material is None or said_by_mjcf(visual.material) is not None:
             return []
         digest = digest_of(look_parts(dict(geom.attributes), self._asset))
@@ -331,8 +332,7 @@ class _Texts:
 
     def _asset(self, tag: str, name: str) -> list[Tagged]:
         """An asset with the elements in it."""
-        assets = self.context.sections.get("asset", [])
-        found = next((each for each in assets if each.name == tag and each.get("name") == name), None)
+        found = self.elements.asset(tag, name)
         return [] if found is None else [(each.name, dict(each.attributes)) for each in found.walk()]
 
     def _place_note(self, part: Shape) -> list[Opaque]:
@@ -420,8 +420,8 @@ class _Texts:
     def _shape_note(self, part: Shape) -> list[Opaque]:
         """The annotation of the file that stands for a shape, with the shape, or of the URI that a file had."""
         shape = part.geometry.shape if part.geometry else None
-        geom = self.geom_elements.get(self.geoms.get(self._key(part), ""))
-        file = self._file_of(geom) if geom is not None else None
+        geom = self.elements.geoms.get(self.geoms.get(self._key(part), ""))
+        file = self.elements.file_of(geom) if geom is not None else None
         if shape is None or file is None or getattr(shape, "uri", None) == file:
             return []
         kept = shape.copy(scale=None) if isinstance(shape, Mesh) else shape
@@ -433,15 +433,7 @@ class _Texts:
         """The annotation of the elements that a sensor or light has become."""
         if isinstance(part, Sensor) and self._left_of(part) is None:
             return []
-        readings = [each for each in self.context.sections.get("sensor", ()) if each.source is part.source]
-        sites = {each.get("site") or each.get("objname") for each in readings}
-        in_bodies = [
-            each
-            for each in self._in_bodies
-            if (each.name in {"camera", "light"} and each.source is part.source)
-            or (each.name == "site" and each.get("name") in sites)
-        ]
-        parts = [*readings, *in_bodies]
+        parts = self.elements.parts_of(part)
         names = "\n".join(f"{each.name} {each.get('name')}" for each in parts)
         digest = digest_of((each.name, dict(each.attributes)) for each in parts)
         return [annotation(PARTS, names, {"digest": digest})]
@@ -449,27 +441,6 @@ class _Texts:
     def _option_digest(self) -> str:
         options = self.context.sections.get("option", [])
         return digest_of((each.name, dict(each.attributes)) for each in options)
-
-    @cached_property
-    def _in_bodies(self) -> list[Element]:
-        """The sites, cameras and lights of all bodies and of the world."""
-        bodies = self.context.sections.get("worldbody", [])
-        return [each for body in bodies for each in body.walk() if each.name in {"camera", "light", "site"}]
-
-    @cached_property
-    def geom_elements(self) -> dict[str, Element]:
-        """The geoms by their names."""
-        bodies = self.context.sections.get("worldbody", [])
-        return {each.get("name") or "": each for body in bodies for each in body.walk() if each.name == "geom"}
-
-    def _file_of(self, geom: Element) -> str | None:
-        """The file of the mesh or height field of a geom."""
-        for kind in ("mesh", "hfield"):
-            asset = geom.get(kind)
-            for each in self.context.sections.get("asset", []):
-                if asset and each.name == kind and each.get("name") == asset:
-                    return each.get("file")
-        return None
 
     def _written_geoms(self) -> Names:
         context, found = self.context, Names()
