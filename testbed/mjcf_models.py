@@ -22,8 +22,9 @@ CASES = ROOT / "tests" / "cases" / "mjcf"
 PACKAGES = Path(os.environ.get("TWINFORM_MJCF") or ROOT / "out" / "mjcf" / "files")
 _NOT_COMPARED = frozenset({
     "names", "paths", "text_data", "names_map", "signature", "buffer", "npaths", "nnames",
-    "nnames_map", "nbuffer", "narena",
+    "nnames_map", "nbuffer", "narena", "bvh_aabb", "bvh_child", "bvh_depth", "bvh_nodeid",
 })  # fmt: skip
+"""Names of their own, memory, and the boxes around geoms: these follow from others, in single precision."""
 _PATHS = ("_pathadr", "pathadr")
 _TOLERANCE = 1e-9
 _OF_DRAWN_TENDONS = frozenset({"tendon_rgba", "tendon_width", "tendon_matid"})
@@ -85,6 +86,8 @@ def differences(mujoco: Any, one: Any, other: Any) -> list[str]:
     found = [name for name, a, b in _arrays(one, other) if not _are_equal(np, a, b)]
     if "body_iquat" in found and _are_equal(np, _inertias(mujoco, np, one), _inertias(mujoco, np, other)):
         found.remove("body_iquat")  # the principal axes of one matrix, in another order or sign
+    if "actuator_ctrlrange" in found and _are_equal(np, _controls(np, one), _controls(np, other)):
+        found.remove("actuator_ctrlrange")  # some actuators cannot say a range that does not limit
     if "names" in found or one.names != other.names:
         found.append("names")
     if _has_fixed_tendons(mujoco, one):
@@ -110,6 +113,11 @@ def _are_equal(np: Any, a: Any, b: Any) -> bool:
     if a.dtype.kind != "f":
         return bool((a == b).all())
     return bool(np.allclose(a, b, rtol=_TOLERANCE, atol=_TOLERANCE, equal_nan=True))
+
+
+def _controls(np: Any, model: Any) -> Any:
+    """Return the ranges of controls, where they limit."""
+    return np.where(np.asarray(model.actuator_ctrllimited)[:, None], model.actuator_ctrlrange, 0.0)
 
 
 def _inertias(mujoco: Any, np: Any, model: Any) -> Any:

@@ -73,6 +73,9 @@ def actuator_values(element: XmlElement, levels: Sequence[ActuatorLevel]) -> dic
         for level in levels
         for _, values in level.written
     )
+    if mechanical.get("ctrllimited") == "false" and tag not in _ONLY_IN["ctrllimited"]:
+        for values in (mechanical, element.attrib):  # it would limit, and the element cannot say that it does not
+            values.pop("ctrlrange", None)
     found = {name: text for name, text in mechanical.items() if tag in _ONLY_IN.get(name, ACTUATORS)}
     return {**found, **_gains(tag, states)}
 

@@ -9,10 +9,12 @@ from contextlib import suppress
 from copy import deepcopy
 from dataclasses import field
 from pathlib import Path
+from posixpath import dirname
 
 from lxml import etree
 
 from twinform.compiler.input.load_options import LoadOptions, unexpanded_name
+from twinform.compiler.input.mjcf.attached_keys import AttachedKeys, UncountableError
 from twinform.compiler.input.mjcf.compiler_settings import CompilerSettings
 from twinform.compiler.input.mjcf.element_findings import ElementFindings, give_number
 from twinform.compiler.input.mjcf.expand_frames import add_to_names, expand_frames, is_too_large
@@ -40,6 +42,7 @@ class Attaching:
     prepare: Prepare
     files: tuple[Path, ...]
     elements: list[int] = field(default_factory=lambda: [0])
+    keys: AttachedKeys = field(default_factory=AttachedKeys)
 
     def attach_all(self, root: XmlElement, findings: ElementFindings) -> None:
         """Put all attached models of a tree in their places."""
@@ -70,23 +73,64 @@ class Attaching:
             findings.report(rules.UNATTACHED_MODEL, attachment, message, "@model", found=name)
             return None
         file = asset.get("file", "")
-        path = Path(self.files[0]).parent / file
+        path = self.files[-1].parent / file
         child = self._read(path, file, asset, findings)
         if child is None or self._is_too_much(child, attachment, findings):
             return None
         give_number(child, attachment)
-        inner = Attaching(self.load_options, self.prepare, (*self.files, path.resolve()), self.elements)
+        keys = AttachedKeys(counted=self.keys.counted)
+        inner = Attaching(self.load_options, self.prepare, (*self.files, path.resolve()), self.elements, keys)
         settings = self.prepare(child, findings, inner)
+        folder = dirname(file.replace("\\", "/"))
+        around = CompilerSettings(mesh_folder=folder, texture_folder=folder)
+        for each in child.iter("*"):
+            around.resolve_files(each)
         if is_too_large(child, findings, self.load_options.limits.tags):
             return None
+        self._take_keys(attachment, child, settings, inner.keys, findings)
         return self._selected(attachment, child, settings, findings)
+
+    def write_keys(self, root: XmlElement, findings: ElementFindings) -> None:
+        """Write the keyframes of what was attached into a tree whose frames are expanded."""
+        try:
+            self.keys.write(root)
+        except UncountableError:
+            _report_left_out_keys(self.keys.waiting[0].origin, findings)
+
+    def _take_keys(
+        self,
+        attachment: XmlElement,
+        child: XmlElement,
+        settings: CompilerSettings,
+        inner: AttachedKeys,
+        findings: ElementFindings,
+    ) -> None:
+        """Take the keyframes of a model, and those that come with what is attached to that one."""
+        try:
+            if inner.waiting:
+                whole = self._expanded(child, settings, findings)
+                inner.write(whole)
+                for section in [*child.iterchildren("keyframe")]:
+                    child.remove(section)
+                child.extend(whole.iterchildren("keyframe"))
+            if next(child.iterfind("keyframe/key"), None) is not None:
+                self.keys.mark(child)
+                self.keys.take(self._expanded(child, settings, findings), attachment.get("prefix", ""), attachment)
+        except UncountableError:
+            _report_left_out_keys(attachment, findings)
+
+    def _expanded(self, child: XmlElement, settings: CompilerSettings, findings: ElementFindings) -> XmlElement:
+        """Return a copy of a tree with its frames expanded; what is wrong with them is reported for the tree itself."""
+        copy = deepcopy(child)
+        expand_frames(copy, settings, findings.silent(), self.load_options.limits.tags)
+        return copy
 
     def _name_of(self, asset: XmlElement) -> str:
         """Return the name of a model among the assets: where it has none, the one that its file says."""
         name, root = asset.get("name"), None
         if not name:
             with suppress(UnreadableError):
-                root = self._tree(Path(self.files[0]).parent / asset.get("file", ""), DiagnosticSink())
+                root = self._tree(self.files[-1].parent / asset.get("file", ""), DiagnosticSink())
         return name or (root.get("model", "MuJoCo Model") if root is not None else "")
 
     def _own_tree(self, attachment: XmlElement, whole: XmlElement, findings: ElementFindings) -> XmlElement | None:
@@ -175,12 +219,12 @@ class Attaching:
         prefix = attachment.get("prefix", "")
         worldbody = child.find("worldbody")
         content = [] if worldbody is None else [*worldbody.iterchildren("*")]
-        if next(child.iterfind("keyframe/key"), None) is not None:
-            message = "the keyframes of the attached model are left out"
-            severity = rules.DROPPED_REFERENCE.severity
-            findings.report(rules.UNATTACHED_MODEL, attachment, message, severity=severity)
         names = _known_names(child, content)
         _keep_followers(child, names)
+        if "model" not in attachment.attrib:  # the assets are there already
+            names = {kind: each for kind, each in names.items() if kind not in ASSET_KINDS}
+            for section in [*child.iterchildren("asset")]:
+                child.remove(section)
         for element in content:
             add_to_names(element, names, prefix, "")
         for tag in ("asset", *_SECTIONS):
@@ -190,6 +234,12 @@ class Attaching:
                         each.set("name", f"{prefix}{each.get('name')}")
                     rename(each, names, lambda name: f"{prefix}{name}")
         return content
+
+
+def _report_left_out_keys(element: XmlElement, findings: ElementFindings) -> None:
+    """Report that keyframes are missing."""
+    message = "the keyframes of the attached model are left out"
+    findings.report(rules.UNATTACHED_MODEL, element, message, severity=rules.DROPPED_REFERENCE.severity)
 
 
 def _report_unread(problem: Diagnostic | None, file: str, asset: XmlElement, findings: ElementFindings) -> None:

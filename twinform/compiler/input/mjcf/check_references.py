@@ -12,7 +12,7 @@ _WORDS = {"geom": "geom", "hfield": "height field", "key": "keyframe", "exclude"
 _REFERRED = frozenset({*KINDS.values(), *ASSET_KINDS, *SECTION_KINDS.values(), "tuple"}) - {"model"}
 
 _SECTIONS = frozenset({
-    "asset", "worldbody", "contact", "deformable", "equality", "tendon", "actuator", "sensor", "custom", "visual",
+    "asset", "worldbody", "contact", "deformable", "equality", "tendon", "actuator", "sensor", "custom",
 })  # fmt: skip
 
 Named = dict[str, dict[str, XmlElement]]

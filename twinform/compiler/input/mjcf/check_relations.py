@@ -35,7 +35,7 @@ def check_relations(root: XmlElement, named: Named, findings: ElementFindings) -
     joints = [*all_joints(root)]
     kinds = {name: kind for joint, kind in joints if (name := joint.get("name"))}
     for joint, kind in joints:
-        if kind != "free":
+        if kind in _SCALAR:  # a ball may be limited to an angle of 0
             _check_ranges(joint, ("range", "actuatorfrcrange"), findings)
     checks: Mapping[str, Callable[[XmlElement], None]] = {
         "actuator": lambda each: _check_actuator(each, findings),

@@ -9,12 +9,14 @@ from copy import deepcopy
 from typing import Unpack
 
 from twinform.dataclass import dataclass
-from twinform.diagnostics import Rule
+from twinform.diagnostics import DiagnosticSink, Rule
 from twinform.schemas import Context, XmlElement
 from twinform.schemas.messages import FindingDetails
 
 NUMBER = "twinform-number"
 """The attribute that has the number of an element."""
+SLOT = "twinform-slot"
+"""The attribute that has the number of a part in the keyframes of an attached model."""
 
 
 @dataclass(slots=True)
@@ -32,6 +34,11 @@ class ElementFindings:
         self.count += 1
         number = element.get(NUMBER, "0")
         self.context.report(rule, self.originals[int(number)], message, step, **more)
+
+    def silent(self) -> "ElementFindings":
+        """Return findings about the same file that nobody is told of."""
+        context = self.context
+        return ElementFindings(Context(DiagnosticSink(), context.file, context.format, context.version), self.originals)
 
 
 def numbered_copy(root: XmlElement) -> tuple[XmlElement, list[XmlElement]]:
@@ -58,9 +65,10 @@ def set_line(element: XmlElement, other: XmlElement) -> None:
 
 
 def take_numbers_out(root: XmlElement) -> None:
-    """Remove the numbers from a tree."""
+    """Remove the numbers from a tree, and those of the keyframes of attached models."""
     for element in _elements(root):
-        element.attrib.pop(NUMBER, None)
+        for name in (NUMBER, SLOT):
+            element.attrib.pop(name, None)
 
 
 def _elements(root: XmlElement) -> Iterator[XmlElement]:

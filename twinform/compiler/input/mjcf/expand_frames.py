@@ -161,6 +161,7 @@ def place_in(element: XmlElement, pose: FramePose) -> None:
 def _place(element: XmlElement, pose: FramePose) -> None:
     element.set("pos", number_text(pose.point(_vector(element, "pos"))))
     rotation = multiply(pose.rotation, _quaternion(element))
+    element.attrib.pop("quat", None)
     if rotation != UNTURNED:
         element.set("quat", number_text(unit(rotation)))
 

@@ -4,12 +4,17 @@ from twinform.schemas import XmlElement
 
 _PLAIN = frozenset({"compiler", "option", "size", "statistic", "visual"})
 """Sections of single values, of which the last one counts."""
+_LISTS = frozenset({
+    "extension", "custom", "asset", "worldbody", "contact", "deformable", "equality", "tendon", "actuator", "sensor",
+    "keyframe",
+})  # fmt: skip
+"""Sections whose elements add up."""
 
 
 def merge_sections(root: XmlElement) -> None:
     """Leave one section of each name, where the first one stands, with all that the others have."""
     first: dict[str, XmlElement] = {}
-    for section in list(root.iterchildren("*")):
+    for section in list(root.iterchildren(*_PLAIN, *_LISTS)):  # MuJoCo skips others
         tag = str(section.tag)
         whole = first.setdefault(tag, section)
         if whole is section:

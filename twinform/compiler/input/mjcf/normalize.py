@@ -39,6 +39,7 @@ def normalize(root: XmlElement, context: Context, load_options: LoadOptions) -> 
     if settings.degrees:
         check_angles(copy, findings)
     expand_frames(copy, settings, findings, load_options.limits.tags)
+    attaching.write_keys(copy, findings)
     rewrite_compiler(copy)
     check_canonical(copy, findings)
     take_numbers_out(copy)

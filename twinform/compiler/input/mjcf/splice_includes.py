@@ -27,10 +27,15 @@ INCLUDE = "include"
 def splice_includes(path: Path, text: bytes, sink: DiagnosticSink, load_options: LoadOptions) -> Expansion | None:
     """Return the text of a file with all that it includes, or None for a file that is not MJCF or includes nothing.
 
+    What is wrong with the text itself is left to whoever reads it.
+
     Raises:
         UnreadableError: something cannot be included; the diagnostics tell what.
     """
-    root = parse(text, DiagnosticSink(sink.file), load_options.limits, keep_comments=True)
+    try:
+        root = parse(text, DiagnosticSink(sink.file), load_options.limits, keep_comments=True)
+    except UnreadableError:
+        return None
     strip_default_namespace(root)
     if root.tag != "mujoco" or next(root.iter(INCLUDE), None) is None:
         return None
