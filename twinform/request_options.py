@@ -98,6 +98,7 @@ class RequestOptions(TypedDict, total=False):
         ),
     ]
     side_files: bool
+    mesh_folder: str
     comments: Annotated[bool, Option(help="Whether comments of the source go along.")]
     expand_includes: bool
     model: str | None
@@ -117,6 +118,8 @@ class Requested:
     shape_error: float | None = None
     mesh_prefix: str | None = None
     side_files: bool = True
+    mesh_folder: str = "meshes"
+    """Where meshes of shapes go that MJCF lacks; packages have their own folders."""
     comments: bool = True
     expand_includes: bool = False
     model: str | None = None

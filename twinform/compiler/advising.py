@@ -4,6 +4,7 @@ The file is converted into the other formats that consumers read. A table of rea
 decides which format it is best kept in, and the profiles of all consumers are asked about each.
 """
 
+from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import partial
 from itertools import groupby
@@ -241,10 +242,13 @@ def _losses_in(facts: Facts, format_: Format) -> str:
     losses = facts.losses(format_)
     if not losses:
         return ""
-    total = sum(each.number for each in losses)
-    alone = len(losses) == 1
-    kinds = ", ".join(each.rule if alone else f"{each.number} {each.rule}" for each in losses[:3])
-    more = f" and {_count(len(losses) - 3, 'other kind')}" if len(losses) > 3 else ""
+    numbers = Counter[str]()  # of one rule, some parts may be approximated and others dropped
+    for each in losses:
+        numbers[each.rule] += each.number
+    total = numbers.total()
+    alone = len(numbers) == 1
+    kinds = ", ".join(rule if alone else f"{number} {rule}" for rule, number in [*numbers.items()][:3])
+    more = f" and {_count(len(numbers) - 3, 'other kind')}" if len(numbers) > 3 else ""
     return f"{_count(total, 'part')} {'has' if total == 1 else 'have'} no {format_.upper()} equivalent ({kinds}{more})"
 
 
@@ -313,8 +317,9 @@ def advise(
     document, profiles = loaded.document, tuple(profiles)
     if document is None or not loaded.accepted:
         raise loaded.error()
-    macros = loaded.path.lower().endswith(XACRO) or bool(loaded.origins)
     own = loaded.format or document.format
+    # What MJCF includes has its origins too, and no macros.
+    macros = loaded.path.lower().endswith(XACRO) or (bool(loaded.origins) and own is not Format.MJCF)
     rivals = rivals_of(own, profiles)
     asked = {*rivals, *(format_ for each in profiles for format_ in each.formats)}
     forms = {own: own_form(loaded, document)}

@@ -546,3 +546,14 @@ def test_a_folder_for_mujoco_has_a_robot_a_scene_and_its_files(run: Run, tmp_pat
     assert b'<include file="model.xml"/>' in files["scene.xml"]
     assert "TODO" not in done.stderr
     assert not [path for path in files if path.endswith(".mtl")]  # which MuJoCo does not read
+
+
+def test_a_mesh_for_a_shape_that_mjcf_lacks_is_where_all_files_are(run: Run, tmp_path: Path) -> None:
+    cone = "<cone><radius>1</radius><length>1</length></cone>"
+    text = f'<model name="m"><link name="a"><visual name="v"><geometry>{cone}</geometry></visual></link></model>'
+    (tmp_path / "m.sdf").write_text(f'<sdf version="1.12">{text}</sdf>')
+    assert run("package", tmp_path / "m.sdf", "-o", tmp_path / "out", "--kind", "mujoco").exit_code == 0
+    files = _written(tmp_path / "out")
+    (mesh,) = (path for path in files if path.endswith(".obj"))
+    assert mesh.startswith("assets/")
+    assert f'file="{mesh}"'.encode() in files["model.xml"]

@@ -118,3 +118,21 @@ def test_a_file_of_mjcf_is_one_of_mjcf() -> None:
     advice = _for_mujoco(_MJCF)
     assert (advice.format, advice.version, advice.choice.format) == (Format.MJCF, None, Format.MJCF)
     assert set(_advice(_MJCF).rivals) == set(Format)
+
+
+def test_an_include_of_mjcf_is_no_macro(tmp_path: Path) -> None:
+    (tmp_path / "part.xml").write_text("<mujoco><option timestep='0.01'/></mujoco>")
+    path = tmp_path / "whole.xml"
+    path.write_bytes(_MJCF.replace(b"</mujoco>", b'<include file="part.xml"/></mujoco>'))
+    choice = _advice(path).choice
+    assert choice.format is Format.MJCF
+    assert not [each for each in choice.reasons if "macros" in each]
+
+
+def test_losses_of_one_rule_are_one_number() -> None:
+    classes = b'<default><default class="b"><geom condim="4"/></default></default><worldbody>'
+    written = _MJCF.replace(b"<worldbody>", classes).replace(b"<geom", b'<geom class="b"')
+    tied = b"<equality><weld body1='a'/></equality></mujoco>"
+    soft = written.replace(b"</mujoco>", tied)
+    (words,) = [each for each in _advice(soft).choice.reasons if "no SDF equivalent" in each]
+    assert words.count("mjcf-only") == 1, words

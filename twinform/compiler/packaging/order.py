@@ -104,7 +104,14 @@ class Order:
         """
         passes = Pipeline((*self.conversion.passes, CollectFiles.into(collection)))
         prefix = {"urdf": f"package://{self.name}", "sdf": f"model://{self.folder}"}.get(to)
-        request = replace(self.conversion, to=to, sdf_version=sdf_version, mesh_prefix=prefix, passes=passes)
+        request = replace(
+            self.conversion,
+            to=to,
+            sdf_version=sdf_version,
+            mesh_prefix=prefix,
+            mesh_folder=collection.layout.meshes,
+            passes=passes,
+        )
         made = run_conversion(
             request, self.source, self.load_options, name=self.source_name, instrumentation=instrumentation
         )

@@ -54,7 +54,7 @@ class ShapeReplacer:
     """Replaces shapes of the kinds that a target `lacks`.
 
     A mesh is at most `error` off, in m, or 1 % of the largest radius where it is None; none is written without
-    `side_files`. The URIs of meshes begin with `prefix`, or are relative paths.
+    `side_files`, which go into `folder`. The URIs of meshes begin with `prefix`, or are relative paths.
     """
 
     keeper: Keeper
@@ -63,6 +63,7 @@ class ShapeReplacer:
     error: float | None
     prefix: str | None
     side_files: bool
+    folder: str = FOLDER
     _known: dict[Geometry, "_WrittenMesh | NoMeshError"] = field(
         default_factory=dict[Geometry, "_WrittenMesh | NoMeshError"]
     )
@@ -91,7 +92,7 @@ class ShapeReplacer:
         for other in geometry.opaque:  # a polyline may be one of several
             sink = self.keeper.sink
             sink.account(Fate.APPROXIMATED, rules.REPLACED_SHAPE, message, other.location, other.weight)
-        path = f"{FOLDER}/{made_of.name}"
+        path = f"{self.folder}/{made_of.name}"
         uri = f"{self.prefix.rstrip('/')}/{path}" if self.prefix else path
         made = replace_fields(part, geometry=Geometry(shape=Mesh(uri=uri)))
         if not self.keeper.carriers:
@@ -137,7 +138,7 @@ class ShapeReplacer:
         # and a mesh that somebody edited is no longer what its name says.
         data = mesh.obj()
         name = f"{kind}_{digest_of(data)}.obj"
-        self.keeper.sink.side_files.append(SideFile(f"{FOLDER}/{name}", data, MARK.encode()))
+        self.keeper.sink.side_files.append(SideFile(f"{self.folder}/{name}", data, MARK.encode()))
         off = f"at most {format_length(mesh.error)} off and inside of it" if mesh.error else "with the same surface"
         return _WrittenMesh(name, len(data), f"{len(mesh.faces)} triangles, {off}")
 

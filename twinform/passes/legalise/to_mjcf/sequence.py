@@ -42,6 +42,7 @@ def to_mjcf(
         mixed=mixed_source and source is Format.SDF,
         shape_error=requested.shape_error,
         side_files=requested.side_files,
+        mesh_folder=requested.mesh_folder,
     )
     # MuJoCo computes inertias of shapes in its own way, and of all links or none.
     return (*in_sdf, WriteInertias.unchecked(version=_WITHOUT_AUTOMATIC), write)

@@ -19,7 +19,7 @@ from twinform.passes.legalise.to_mjcf.options import add_options
 from twinform.passes.legalise.to_mjcf.sites import world_sites
 from twinform.passes.legalise.to_mjcf.texts import add_texts
 from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext
-from twinform.passes.shared.replaced_shapes import ShapeReplacer
+from twinform.passes.shared.replaced_shapes import FOLDER, ShapeReplacer
 
 _COMPILER = make_element(
     "compiler",
@@ -58,6 +58,7 @@ class WriteMjcf(AssetPass):
     """Whether the SDF has syntax of newer versions, which goes back into it."""
     shape_error: float | None = None
     side_files: bool = True
+    mesh_folder: str = FOLDER
 
     def run(self, document: Document, sink: DiagnosticSink) -> Document:
         """The document in the terms of MJCF; unchanged after an error."""
@@ -68,7 +69,9 @@ class WriteMjcf(AssetPass):
         holder = holder_of(document)
         keeper = Keeper(sink, self.carriers)
         # MuJoCo looks meshes up by their paths, so that these have no prefix.
-        replacer = ShapeReplacer(keeper, "MJCF", _LACKS.__contains__, self.shape_error, None, self.side_files)
+        replacer = ShapeReplacer(
+            keeper, "MJCF", _LACKS.__contains__, self.shape_error, None, self.side_files, self.mesh_folder
+        )
         context = MjcfContext(document, holder, sink, keeper, replacer, self._assets, self.source_version, self.mixed)
         try:
             _write_sections(context)
