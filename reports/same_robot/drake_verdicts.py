@@ -65,13 +65,13 @@ def directions(file: CorpusFile) -> tuple[Direction, ...]:
 
 def judge(file: CorpusFile) -> tuple[Outcome, ...]:
     """Convert a file in every direction and judge each result; no exception comes out of it."""
-    source = _load(file.path)
+    source = load(file.path)
     return tuple(_judged(file, direction, source) for direction in directions(file))
 
 
 def post_mortem(file: CorpusFile) -> tuple[Outcome, ...]:
     """For a file on which Drake ended the process: who was to blame, if this call comes back the result was."""
-    _load(file.path)
+    load(file.path)
     return tuple(
         Outcome(file.name, direction, Verdict.RESULT, "Drake ends the process") for direction in directions(file)
     )
@@ -108,7 +108,7 @@ def _convert(file: CorpusFile, direction: Direction) -> Path:
     return kept(OUT / f"{file.name}{suffix}", text)
 
 
-def _load(path: Path) -> EngineRobot | str:
+def load(path: Path) -> EngineRobot | str:
     """What Drake sees, or why it sees nothing."""
     try:
         return read_robot(path, DRAKE)

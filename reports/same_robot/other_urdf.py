@@ -7,14 +7,14 @@ from functools import partial
 from pathlib import Path
 
 import twinform
-from reports.same_robot.drake_verdicts import DRAKE, cause
+from reports.same_robot.drake_verdicts import DRAKE, cause, load
 from testbed.corpus.files import CorpusFile
 from testbed.oracles import urdfdom
 from testbed.output_files import OUT, kept
 from twinform.request_options import URDF_VERSIONS, UrdfVersion
 from twinform.testing import oracles
 from twinform.testing.oracles.robot import EngineRobot
-from twinform.testing.oracles.robot_comparison import read_robot, verdict_on
+from twinform.testing.oracles.robot_comparison import verdict_on
 
 _FOLDER = OUT / "urdf_versions"
 _READERS: Mapping[str, tuple[Callable[[Path], tuple[str, ...]], tuple[UrdfVersion, ...]]] = {
@@ -53,7 +53,7 @@ def judge(file: CorpusFile) -> list[Outcome]:
     """The robot in every version before every reader; nothing where it has errors. No exception comes out of it."""
     if not twinform.check(file.path, paths=file.paths).accepted:
         return []
-    drake = partial(_of_drake, file.path, _load(file.path))
+    drake = partial(_of_drake, file.path, load(file.path))
     return [outcome for version in URDF_VERSIONS for outcome in _judged(file, version, drake)]
 
 
@@ -87,10 +87,3 @@ def _of_drake(source: Path, robot: EngineRobot | str, made: Path) -> tuple[Verdi
     except oracles.EngineUnreadableError as error:
         return Verdict.REFUSED, cause(error.cause)
     return (Verdict.SAME, "") if found.alike else (Verdict.DIFFERENT, found.cause)
-
-
-def _load(path: Path) -> EngineRobot | str:
-    try:
-        return read_robot(path, DRAKE)
-    except oracles.EngineUnreadableError as error:
-        return cause(error.cause)

@@ -8,7 +8,6 @@ the same name. Inside `FREE_CONTENT`, which belongs to other programs, all order
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
-from pathlib import Path
 from typing import NamedTuple
 
 from lxml import etree
@@ -64,11 +63,6 @@ def first_difference(source: bytes, result: bytes) -> str | None:
     before, after = _parse_leniently(source), etree.fromstring(result, _parser())
     names = Names(as_written=_has_unbound_prefix(before))
     return next(_differences(Pair(before, after, f"/{names.of(before)}"), names), None)
-
-
-def first_difference_of_files(source: Path, result: Path) -> str | None:
-    """The same for two files."""
-    return first_difference(source.read_bytes(), result.read_bytes())
 
 
 def is_well_formed(data: bytes) -> bool:

@@ -8,8 +8,8 @@ import click
 
 from twinform.cli.command import Unusable
 from twinform.cli.flags import group
-from twinform.cli.printing import plural
 from twinform.dataclass import dataclass
+from twinform.diagnostics.plurals import plural
 from twinform.file_access import OutsideError, Readable
 
 if TYPE_CHECKING:

@@ -15,7 +15,7 @@ from twinform.cli.completion import pipelines
 from twinform.cli.diff import comparison_options
 from twinform.cli.flags import group
 from twinform.cli.inputs import file_options, load_options_of, reading_options
-from twinform.cli.printing import plural, print_line
+from twinform.cli.printing import print_line
 from twinform.cli.project_options import (
     consumers_option,
     keep_physics_option,
@@ -47,6 +47,7 @@ from twinform.compiler.batch.task import BatchJob
 from twinform.compiler.compare import ComparisonOptions
 from twinform.compiler.input.load_options import FileOptions, ReadingOptions
 from twinform.dataclass import dataclass
+from twinform.diagnostics.plurals import plural
 from twinform.file_access import Readable
 from twinform.passes import Pipeline
 from twinform.profiles import Profile

@@ -12,8 +12,9 @@ from twinform.cli.baseline_file import Baselines
 from twinform.cli.checked_file import CheckedFile, Reporting, is_elsewhere
 from twinform.cli.command import FINDINGS, UNUSABLE
 from twinform.cli.flags import group
-from twinform.cli.printing import plural, print_document, print_line, show
+from twinform.cli.printing import print_document, print_line, show
 from twinform.diagnostics import Diagnostic, Policy, Safety, Severity, rules
+from twinform.diagnostics.plurals import plural
 from twinform.diagnostics.reporters import REPORTERS, FileFindings
 from twinform.diagnostics.reporters.file_findings import cause_of
 

@@ -6,7 +6,8 @@ import click
 
 from twinform.cli.command import Command, Unusable
 from twinform.cli.file_runs import cache_folder
-from twinform.cli.printing import plural, print_line
+from twinform.cli.printing import print_line
+from twinform.diagnostics.plurals import plural
 
 EXAMPLES = {
     "Delete what is kept of earlier runs": "twinform clean",

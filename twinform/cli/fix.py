@@ -16,7 +16,7 @@ from twinform.cli.inputs import InputSource, exclude_options, exclusion_of, file
 from twinform.cli.instrumentation import mesh_progress
 from twinform.cli.model_files import is_fixable, is_plain
 from twinform.cli.outputs import Rewrite, show_differences, write_back
-from twinform.cli.printing import notes_option, plural, print_line, show
+from twinform.cli.printing import notes_option, print_line, show
 from twinform.cli.project_options import OptionsByFile, pipeline_option
 from twinform.cli.rule_options import policy_options
 from twinform.compiler import (
@@ -36,6 +36,7 @@ from twinform.compiler.input.load_options import XACRO
 from twinform.compiler.input.parsing import UnreadableError, read_bytes
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Policy, Safety, Severity
+from twinform.diagnostics.plurals import plural
 from twinform.diagnostics.reporters import FileFindings
 from twinform.passes import FilesPass, PassError, Pipeline
 

@@ -4,8 +4,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from twinform.cli.printing import plural
 from twinform.compiler import LoadOptions, read
+from twinform.diagnostics.plurals import plural
 
 if TYPE_CHECKING:
     from twinform.compiler.companions.follow_renames import FollowedFile

@@ -15,13 +15,14 @@ from twinform.cli.file_runs import RunOptions, open_file_run, run_options
 from twinform.cli.inputs import InputSource, exclude_options, exclusion_of, model_inputs, size_option
 from twinform.cli.model_files import is_text
 from twinform.cli.nearest_projects import ContextByFile, finding_of
-from twinform.cli.printing import plural, print_document, print_line, print_text, show
+from twinform.cli.printing import print_document, print_line, print_text, show
 from twinform.compiler import CompileError
 from twinform.compiler.formatting import formatted
 from twinform.compiler.input.parsing import UnreadableError, read_bytes
 from twinform.compiler.input.size_limits import LARGEST, USUAL_LIMITS, Limits
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Location, Severity, rules
+from twinform.diagnostics.plurals import plural
 from twinform.diagnostics.reporters import FileFindings
 from twinform.option import given
 from twinform.text import SourceText

@@ -12,7 +12,7 @@ from twinform.cli.gazebo_files import release_option, version_for
 from twinform.cli.inputs import InputSource, inputs, reading_options
 from twinform.cli.instrumentation import show_fault
 from twinform.cli.outputs import Output, Outputs
-from twinform.cli.printing import all_option, notes_option, plural, print_line, print_text
+from twinform.cli.printing import all_option, notes_option, print_line, print_text
 from twinform.cli.project_options import (
     OptionsByFile,
     request_options_of_versions,
@@ -27,6 +27,7 @@ from twinform.compiler.packaging.order import Built, Order, PackageDetails, deta
 from twinform.compiler.packaging.package import OccupiedError, Package, write_package
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, Policy
+from twinform.diagnostics.plurals import plural
 from twinform.passes import PassError
 from twinform.passes.plugins.release_names import ReleaseName
 

@@ -70,11 +70,6 @@ def print_report(report: str, style: str) -> None:
         print_document(report)
 
 
-def plural(number: int, word: str) -> str:
-    """Write a number of things, such as `1 file` or `2 files`."""
-    return f"{number} {word}{'' if number == 1 else 's'}"
-
-
 def print_error(error: click.ClickException) -> None:
     """Print the error that ends a command, with the usage if it is about that."""
     with io.StringIO() as text:

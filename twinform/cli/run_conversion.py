@@ -17,12 +17,13 @@ from twinform.cli.gazebo_files import GazeboFiles
 from twinform.cli.inputs import InputSource, format_of_suffix
 from twinform.cli.instrumentation import InstrumentationOptions, mesh_progress
 from twinform.cli.outputs import Output, Outputs, beside
-from twinform.cli.printing import plural, print_line, show
+from twinform.cli.printing import print_line, show
 from twinform.cli.project_options import ResolvedOptions
 from twinform.compiler import CompileError, Conversion, ConversionRequest, LoadOptions, read, run_conversion
 from twinform.compiler.input.load_options import XACRO
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, Fate, Ledger, Policy
+from twinform.diagnostics.plurals import plural
 from twinform.diagnostics.reporters import FileFindings, printable
 from twinform.ir import Format
 from twinform.passes import FilesPass, PassError, PassInstrumentation, Pipeline

@@ -12,7 +12,7 @@ from twinform.cli.config_defaults import settings_of
 from twinform.cli.diff import tolerance_option
 from twinform.cli.inputs import InputSource, reading_options, split_words
 from twinform.cli.outputs import Outputs, Rewrite, show_differences
-from twinform.cli.printing import all_option, notes_option, plural, print_line, print_report
+from twinform.cli.printing import all_option, notes_option, print_line, print_report
 from twinform.cli.project_options import OptionsByFile, request_options, whole_request
 from twinform.cli.rule_options import policy_options
 from twinform.cli.run_conversion import describe_change, show_findings
@@ -24,6 +24,7 @@ from twinform.compiler.sync_reporters import REPORTERS, SyncedGroup
 from twinform.compiler.syncing import AnotherRobotError, SyncedFile, SyncOptions, SyncState, sync_file
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic
+from twinform.diagnostics.plurals import plural
 from twinform.passes import PassError, Pipeline
 from twinform.request_options import Language
 

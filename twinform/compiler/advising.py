@@ -20,6 +20,7 @@ from twinform.compiler.read_otherwise import read_otherwise
 from twinform.compiler.request import ConversionRequest
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, Fate, LedgerEntry, rules
+from twinform.diagnostics.plurals import plural
 from twinform.diagnostics.rules import MODEL_NOT_CHOSEN
 from twinform.ir import Document, Format, Joint, walk
 from twinform.passes.joints.transmission import urdf_elements
@@ -192,7 +193,7 @@ def _is_a_scene(facts: Facts) -> str:
         return ""
     number = sum(1 for _ in candidates(facts.document))
     if facts.document.worlds:
-        return f"it is a world of {_count(number, 'model')}; URDF holds one robot, and nothing around it"
+        return f"it is a world of {plural(number, 'model')}; URDF holds one robot, and nothing around it"
     return f"it has {number} models; URDF holds one" if number > 1 else ""
 
 
@@ -248,12 +249,8 @@ def _losses_in(facts: Facts, format_: Format) -> str:
     total = numbers.total()
     alone = len(numbers) == 1
     kinds = ", ".join(rule if alone else f"{number} {rule}" for rule, number in [*numbers.items()][:3])
-    more = f" and {_count(len(numbers) - 3, 'other kind')}" if len(numbers) > 3 else ""
-    return f"{_count(total, 'part')} {'has' if total == 1 else 'have'} no {format_.upper()} equivalent ({kinds}{more})"
-
-
-def _count(number: int, word: str) -> str:
-    return f"{number} {word}{'' if number == 1 else 's'}"
+    more = f" and {plural(len(numbers) - 3, 'other kind')}" if len(numbers) > 3 else ""
+    return f"{plural(total, 'part')} {'has' if total == 1 else 'have'} no {format_.upper()} equivalent ({kinds}{more})"
 
 
 _REASONS = (

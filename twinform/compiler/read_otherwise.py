@@ -6,6 +6,7 @@ as MJCF has none of this, because everything is written out there.
 
 from collections.abc import Callable, Iterator
 
+from twinform.diagnostics.plurals import plural
 from twinform.ir import Document, Element, Format, Model
 
 
@@ -19,21 +20,21 @@ def read_otherwise(document: Document) -> tuple[str, ...]:
 def _masses_from_shapes(model: Model) -> str:
     # Measured with 4.0: links without <inertial> get the mass of their collisions, at 1000 kg/m^3.
     number = sum(1 for link in model.links if link.inertial is None and link.collisions)
-    return f"gives {_count(number, 'link')} without inertial a mass, 1000 kg/m³ of their collisions" if number else ""
+    return f"gives {plural(number, 'link')} without inertial a mass, 1000 kg/m³ of their collisions" if number else ""
 
 
 def _merged_links(model: Model) -> str:
     if _setting(model, "fusestatic") == "false":
         return ""
     number = sum(1 for joint in model.joints if joint.type == "fixed")
-    return f"merges {_count(number, 'link')} on fixed joints into their parents" if number else ""
+    return f"merges {plural(number, 'link')} on fixed joints into their parents" if number else ""
 
 
 def _left_visuals(model: Model) -> str:
     if _setting(model, "discardvisual") == "false":
         return ""
     number = sum(len(link.visuals) for link in model.links)
-    return f"leaves {_count(number, 'visual')} out" if number else ""
+    return f"leaves {plural(number, 'visual')} out" if number else ""
 
 
 _DIFFERENCES: tuple[Callable[[Model], str], ...] = (_masses_from_shapes, _merged_links, _left_visuals)
@@ -48,8 +49,4 @@ def _setting(model: Model, name: str) -> str | None:
 def _compilers(model: Model) -> Iterator[Element]:
     for part in model.opaque:
         if part.element is not None and part.element.name == "mujoco":
-            yield from (each for each in part.element.children if each.name == "compiler")
-
-
-def _count(number: int, word: str) -> str:
-    return f"{number} {word}{'' if number == 1 else 's'}"
+            yield from part.element.find_all("compiler")

@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import asdict
 
 from twinform.compiler.statistics import Cost, FileStatistics, MeshCost, ModelStatistics, WorldStatistics
+from twinform.diagnostics.plurals import plural
 
 _WIDTH = 12
 
@@ -32,12 +33,12 @@ def _write_file(found: FileStatistics) -> Iterator[str]:
 
 def _write_world(world: WorldStatistics) -> Iterator[str]:
     parts = [
-        _count(len(world.models), "model"),
-        _count(len(world.plugins), "plugin"),
-        _count(world.lights, "light"),
+        plural(len(world.models), "model"),
+        plural(len(world.plugins), "plugin"),
+        plural(world.lights, "light"),
     ]
-    parts += [_count(world.joints, "joint")] * bool(world.joints)
-    parts += [f"{_count(world.includes, 'include')} that were not read"] * bool(world.includes)
+    parts += [plural(world.joints, "joint")] * bool(world.joints)
+    parts += [f"{plural(world.includes, 'include')} that were not read"] * bool(world.includes)
     yield f"world {world.name!r}: {', '.join(parts)}"
     for model in world.models:
         yield from _write_model(model)
@@ -51,7 +52,7 @@ def _write_model(model: ModelStatistics) -> Iterator[str]:
 
 
 def _list_rows(model: ModelStatistics) -> Iterator[tuple[str, str]]:
-    yield "links", f"{model.links}, at most {_count(model.depth, 'joint')} from a root"
+    yield "links", f"{model.links}, at most {plural(model.depth, 'joint')} from a root"
     yield "joints", _write_kinds(model.joints)
     yield "freedoms", _write_freedoms(model) if model.joints else ""
     yield "mass", _write_mass(model)
@@ -73,22 +74,22 @@ def _list_costs(cost: Cost) -> Iterator[tuple[str, str]]:
     """Yield the costs that no other row has, and how to lower them."""
     words = [f"{cost.pixels_per_second:,.0f} pixels a second"] * bool(cost.pixels_per_second)
     words += [f"{cost.rays_per_second:,.0f} rays a second"] * bool(cost.rays_per_second)
-    words += [f"{_count(cost.rates_assumed, 'sensor')} without an update rate at 1000 Hz"] * bool(cost.rates_assumed)
+    words += [f"{plural(cost.rates_assumed, 'sensor')} without an update rate at 1000 Hz"] * bool(cost.rates_assumed)
     yield "sensing", ", ".join(words)
-    yield "textures", _count(cost.textures, "file") if cost.textures else ""
+    yield "textures", plural(cost.textures, "file") if cost.textures else ""
     for each in cost.advice:
         yield "cheaper", f"{each.category}, {each.reason}: --passes '{each.passes}'"
 
 
 def _write_freedoms(model: ModelStatistics) -> str:
-    closed = f", less what {_count(model.loops, 'closed loop')} take away" if model.loops else ""
+    closed = f", less what {plural(model.loops, 'closed loop')} take away" if model.loops else ""
     return f"{model.dof}{closed}"
 
 
 def _write_mass(model: ModelStatistics) -> str:
     words = [f"{model.mass:.6g} kg"]
-    words += [f"of it 1 kg each for {_count(model.masses_assumed, 'link')} that say none"] * bool(model.masses_assumed)
-    words += [f"without {_count(model.masses_unknown, 'link')} of unknown mass"] * bool(model.masses_unknown)
+    words += [f"of it 1 kg each for {plural(model.masses_assumed, 'link')} that say none"] * bool(model.masses_assumed)
+    words += [f"without {plural(model.masses_unknown, 'link')} of unknown mass"] * bool(model.masses_unknown)
     return ", ".join(words)
 
 
@@ -103,15 +104,15 @@ def _sum_meshes(meshes: Sequence[MeshCost]) -> str:
     drawn = sum(mesh.visuals * (mesh.triangles or 0) for mesh in meshes)
     touched = sum(mesh.collisions * (mesh.triangles or 0) for mesh in meshes)
     unknown = sum(mesh.triangles is None for mesh in meshes)
-    words = f"{_count(len(meshes), 'file')}, {_write_size(size)}, {drawn} triangles drawn, {touched} for contact"
+    words = f"{plural(len(meshes), 'file')}, {_write_size(size)}, {drawn} triangles drawn, {touched} for contact"
     return f"{words}, {unknown} not counted" if unknown else words
 
 
 def _write_mesh(mesh: MeshCost) -> str:
     words = [_write_size(mesh.bytes)] if mesh.bytes is not None else []
-    words += [_count(mesh.triangles, "triangle")] if mesh.triangles is not None else []
+    words += [plural(mesh.triangles, "triangle")] if mesh.triangles is not None else []
     uses = zip((mesh.visuals, mesh.collisions), ("visual", "collision"), strict=True)
-    words += [_count(number, word) for number, word in uses if number]
+    words += [plural(number, word) for number, word in uses if number]
     return f"{mesh.uri}: {', '.join(words)}{f' ({mesh.problem})' if mesh.problem else ''}"
 
 
@@ -121,7 +122,3 @@ def _write_size(count: int) -> str:
     while size >= 1000 and len(units) > 1:
         size, units = size / 1000, units[1:]
     return f"{size:.3g} {units[0]}"
-
-
-def _count(number: int, word: str) -> str:
-    return f"{number} {word}{'' if number == 1 else 's'}"

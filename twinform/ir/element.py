@@ -55,6 +55,10 @@ class Element(Sourced):
         """The first child of this name, or None."""
         return next((child for child in self.children if child.name == name), None)
 
+    def find_all(self, name: str) -> list[Self]:
+        """Return the children of this name, in their order."""
+        return [child for child in self.children if child.name == name]
+
     def walk(self) -> list[Self]:
         """Return this element and all below it, in document order."""
         # a list: an iterator would be resumed once for each element above the one that it yields

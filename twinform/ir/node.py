@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import field
-from typing import Annotated
+from typing import Annotated, TypeGuard, cast
 
 from twinform.ir.element import Opaque
 from twinform.ir.record import Constraint, OneOf, Sourced, fields_of, record
@@ -30,3 +30,8 @@ class Node(Sourced):
 
 NOT_CONTENT = frozenset(name for name, each in fields_of(Node).items() if not each.compare)
 """Fields that say how the file was written, and nothing of the robot: those that are declared with `compare=False`."""
+
+
+def are_nodes(value: object) -> TypeGuard[tuple[Node, ...]]:
+    """Tell whether the value of a field is a list of nodes that is not empty."""
+    return isinstance(value, tuple) and isinstance(next(iter(cast("tuple[object, ...]", value)), None), Node)

@@ -103,7 +103,8 @@ def pose_numbers(pose: Any) -> str | None:
     return f"{vector3(xyz or _ZERO)} {turn}"
 
 
-def _namespace(name: str) -> str:
+def namespace_of(name: str) -> str:
+    """Return the namespace of a name in the notation `{namespace}name`; empty where it has none."""
     return name[1:].partition("}")[0] if name.startswith("{") else ""
 
 
@@ -118,7 +119,7 @@ class _PrefixNames(dict[str, str]):
         local = name.rpartition("}")[2]
         if not _PLAIN_NAME.fullmatch(local):
             etree.QName(name)  # ValueError for what is no name
-        written = self[name] = self.prefixes[_namespace(name)] + local
+        written = self[name] = self.prefixes[namespace_of(name)] + local
         return written
 
 
@@ -299,7 +300,7 @@ class TextOutput:
 
     def _declared_in(self, element: Any, names: _PrefixNames) -> tuple[_PrefixNames, str]:
         """Names where an untyped element declares namespaces: its own is the default, if all names in it have one."""
-        namespace = _namespace(element.name)
+        namespace = namespace_of(element.name)
         attributes = [name for name, _ in element.attributes]
         in_use = attributes and any(name.startswith(f"{{{namespace}}}") for name in attributes)
         is_mixed = not namespace or (element.children and any(each.name[0] != "{" for each in element.walk()))
@@ -313,7 +314,7 @@ class TextOutput:
     def _declared(self, wanted: Iterable[str], names: _PrefixNames) -> tuple[_PrefixNames, str]:
         """Return prefixed names for the namespaces that are wanted, and the declarations of their prefixes."""
         made = dict[str, str]()
-        for namespace in map(_namespace, wanted):
+        for namespace in map(namespace_of, wanted):
             if namespace not in names.prefixes and namespace not in made:
                 made[namespace] = next(p for p in (f"ns{n}" for n in self._made_up) if p not in self._taken)
         if not made:

@@ -11,6 +11,7 @@ from dataclasses import field, replace
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Span, TextEdit
 from twinform.schemas import XmlElement
+from twinform.schemas.text_output import namespace_of
 from twinform.text.alignment import BLANKS, ElementContents, aligned, elements, known_by, renamed, texts, with_renamed
 from twinform.text.positions import ElementSpan, spans
 from twinform.text.serializing import Prefixes, TextSurroundings, contents, serialized, text_of, value_of
@@ -190,7 +191,7 @@ class _Patching(Editor):
         self, place: ElementSpan, added: dict[str, str], prefixes: Prefixes, new: XmlElement
     ) -> tuple[Span, str]:
         """Return where new attributes are inserted, after the last one, and their text."""
-        missing = {name: uri for name, uri in prefixes.missing(new).items() if uri != _uri(str(new.tag))}
+        missing = {name: uri for name, uri in prefixes.missing(new).items() if uri != namespace_of(str(new.tag))}
         prefixes = prefixes.with_(missing)
         last = max((each.whole for each in place.attributes.values()), default=None)
         end = last.end if last else place.name.end
@@ -280,7 +281,3 @@ class _Patching(Editor):
                 self._replace(self.around.with_line(child.whole), "")
         elif place.end_tag:
             self._replace(Span(place.start_tag.end - 1, place.end_tag.end), "/>")
-
-
-def _uri(name: str) -> str:
-    return name[1:].partition("}")[0] if name.startswith("{") else ""

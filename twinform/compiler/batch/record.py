@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 from twinform.compiler.dependencies import Dependency
 from twinform.dataclass import dataclass
+from twinform.diagnostics.plurals import plural
 
 Row = dict[str, object]
 
@@ -136,4 +137,4 @@ class Summary:
         counts = [f"{self.counts[outcome]} {outcome}" for outcome in Outcome if self.counts[outcome]]
         total = self.counts.total()
         before = f" ({self.known} known from before)" if self.known else ""
-        return f"{total} model{'' if total == 1 else 's'}{': ' if counts else ''}{', '.join(counts)}{before}"
+        return f"{plural(total, 'model')}{': ' if counts else ''}{', '.join(counts)}{before}"

@@ -8,6 +8,7 @@ from twinform.dataclass import dataclass
 from twinform.ir import Vector3
 from twinform.ir.solids import ELEMENTS, Symmetric, turned
 from twinform.ir.transform import Transform
+from twinform.passes.legalise.changed_names import with_alpha
 from twinform.schemas import format_value, parse_value
 
 _DIGITS = 10
@@ -225,7 +226,6 @@ def _format_number(value: float) -> str:
 
 NUMBERS = frozenset({"double", "int", "uint", "vector3", "vector2d", "vector2i", "quaternion", "time"})
 COLORS = frozenset({"color", "color4"})
-_WITH_ALPHA = 4
 
 
 def typed_value(type: str | None, text: str, format: str = "sdf", unit: str = "") -> Value | None:
@@ -242,8 +242,4 @@ def typed_value(type: str | None, text: str, format: str = "sdf", unit: str = ""
     if isinstance(parsed, bool):
         return Flag(parsed)
     numbers = tuple(map(float, text.split())) if isinstance(parsed, tuple) else (float(str(parsed)),)
-    return Numbers(_with_alpha(numbers) if type in COLORS else numbers, unit)
-
-
-def _with_alpha(color: tuple[float, ...]) -> tuple[float, ...]:
-    return color if len(color) == _WITH_ALPHA else (*color, 1.0)
+    return Numbers(with_alpha(numbers) if type in COLORS else numbers, unit)

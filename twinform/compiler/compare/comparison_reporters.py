@@ -8,6 +8,7 @@ from types import MappingProxyType
 from twinform.compiler.compare.comparison import Comparison, Difference, DifferenceSeverity, Side
 from twinform.compiler.input.loading import is_usd
 from twinform.diagnostics import Location
+from twinform.diagnostics.plurals import plural
 from twinform.diagnostics.reporters import printable
 
 Paint = Callable[[str, DifferenceSeverity], str]
@@ -50,12 +51,8 @@ def summary(comparison: Comparison) -> str:
     """Return the verdict in one line."""
     verdict = "the same robot" if comparison.same else "different robots"
     carried = [f"{len(comparison.carried)} carried"] if comparison.carried else []
-    counts = (_count(comparison.differences, "difference"), *carried, _count(comparison.notes, "note"))
+    counts = (plural(len(comparison.differences), "difference"), *carried, plural(len(comparison.notes), "note"))
     return f"{verdict}: {', '.join(counts)}"
-
-
-def _count(items: tuple[Difference, ...], word: str) -> str:
-    return f"{len(items)} {word}{'' if len(items) == 1 else 's'}"
 
 
 def heading_of(item: Difference) -> str:

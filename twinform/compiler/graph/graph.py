@@ -12,6 +12,7 @@ from typing import Literal
 from twinform.compiler.kinematics import range_of
 from twinform.dataclass import dataclass
 from twinform.diagnostics import NOWHERE, DiagnosticSink, Location
+from twinform.diagnostics.plurals import plural
 from twinform.diagnostics.reporters import printable
 from twinform.ir import Document, Format, Frame, Joint, Mimic, Model, World
 from twinform.ir.defaults import multiplier
@@ -102,7 +103,7 @@ class Graph:
             (kinds.count("missing"), "missing part"),
             (len(self.followers), "mimic"),
         )
-        found = [f"{count} {word}{'' if count == 1 else 's'}" for count, word in counts if count]
+        found = [plural(count, word) for count, word in counts if count]
         return ", ".join(found) or "no links"
 
 

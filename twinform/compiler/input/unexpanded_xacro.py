@@ -8,6 +8,7 @@ from lxml import etree
 
 from twinform.compiler.input.parsing import ASIDE
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Location, Rule, Severity, rules
+from twinform.diagnostics.plurals import plural
 from twinform.schemas import XmlElement
 from twinform.schemas.xml import path_of
 
@@ -45,8 +46,8 @@ def report_unexpanded(root: XmlElement, sink: DiagnosticSink) -> None:
     expressions = expressions or found
     text = expressions[0].text if expressions else ELEMENTS
     shown = text if len(text) <= 60 else text[:57] + "..."
-    parts = [f"{_count(len(macros), 'element')} of xacro"] if macros else []
-    parts += [f"the expressions of {_count(len(expressions), 'element')}, such as {shown!r},"] if expressions else []
+    parts = [f"{plural(len(macros), 'element')} of xacro"] if macros else []
+    parts += [f"the expressions of {plural(len(expressions), 'element')}, such as {shown!r},"] if expressions else []
     if macros:
         where = Location(line=macros[0].sourceline or 0, path=f"/{root.tag}")
     else:
@@ -107,7 +108,3 @@ def _with_expressions(root: XmlElement) -> Iterator[_Expression]:
         found = next((each.strip() for each in texts if "${" in each and "}" in each), None)
         if found is not None:
             yield _Expression(element, found, not _SETTINGS.isdisjoint(around))
-
-
-def _count(number: int, word: str) -> str:
-    return f"{number} {word}{'' if number == 1 else 's'}"

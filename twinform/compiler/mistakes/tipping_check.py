@@ -7,6 +7,7 @@ from twinform.compiler.mistakes.placed_tree import PlacedTree
 from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Box, Collision, Cylinder, Model, Sphere, Vector3
 from twinform.ir.transform import Transform
+from twinform.passes.shared.outlines import Point, doubled_area
 
 _LEVEL = 0.2
 """The vertical part of the axis of a wheel, at most."""
@@ -17,8 +18,6 @@ _LEAST = 0.01
 _WIDE = 0.02
 """The least width of a support: what stands on two wheels balances."""
 _FEWEST_WHEELS = 2
-
-Point = tuple[float, float]
 
 
 def report_tipping(model: Model, tree: PlacedTree, sink: DiagnosticSink) -> None:
@@ -103,15 +102,10 @@ def _hull(points: Sequence[Point]) -> list[Point]:
 def _chain(points: Sequence[Point]) -> list[Point]:
     made: list[Point] = []
     for point in points:
-        while len(made) > 1 and _turn(made[-2], made[-1], point) <= 0:
+        while len(made) > 1 and doubled_area(made[-2], made[-1], point) <= 0:
             made.pop()
         made.append(point)
     return made[:-1]
-
-
-def _turn(a: Point, b: Point, c: Point) -> float:
-    """Return twice the area of a triangle, positive if it turns to the left."""
-    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 
 
 def _edges(hull: Sequence[Point]) -> Iterator[tuple[Point, Point, float]]:
@@ -124,10 +118,10 @@ def _edges(hull: Sequence[Point]) -> Iterator[tuple[Point, Point, float]]:
 
 def _width(hull: Sequence[Point]) -> float:
     """Return the least distance of two parallel lines with a hull between them."""
-    widths = [max(_turn(a, b, each) / length for each in hull) for a, b, length in _edges(hull)] if hull else []
+    widths = [max(doubled_area(a, b, each) / length for each in hull) for a, b, length in _edges(hull)] if hull else []
     return min(widths, default=0.0)
 
 
 def _distance(point: Point, hull: Sequence[Point]) -> float:
     """Return how far a point is outside of a hull; negative inside."""
-    return max(-_turn(a, b, point) / length for a, b, length in _edges(hull))
+    return max(-doubled_area(a, b, point) / length for a, b, length in _edges(hull))

@@ -77,17 +77,13 @@ def _components(system: Element, kind: str) -> Iterator[Component]:
                 name=each.get("name") or "",
                 commands=_names(each, "command_interface"),
                 states=_names(each, "state_interface"),
-                parameters=tuple((child.get("name") or "", child.text or "") for child in _all(each, "param")),
+                parameters=tuple((child.get("name") or "", child.text or "") for child in each.find_all("param")),
                 alone=(each.get("mimic") or "").strip().lower() == "false",
             )
 
 
 def _names(element: Element, kind: str) -> tuple[str, ...]:
-    return tuple(dict.fromkeys(name for each in _all(element, kind) if (name := each.get("name"))))
-
-
-def _all(element: Element, name: str) -> Iterator[Element]:
-    return (child for child in element.children if child.name == name)
+    return tuple(dict.fromkeys(name for each in element.find_all(kind) if (name := each.get("name"))))
 
 
 CONTROLLERS = "config/controllers.yaml"

@@ -244,6 +244,6 @@ def _texts(parts: tuple[Opaque, ...], outer: str, inner: str) -> Iterator[tuple[
     """The texts of the `inner` children of the parts that are an `outer` element, and the step to each."""
     for part in parts:
         if part.element and part.element.name == outer:
-            found = [child.text or "" for child in part.element.children if child.name == inner]
+            found = [child.text or "" for child in part.element.find_all(inner)]
             for place, text in enumerate(found, 1):
                 yield part, f"{inner}[{place}]" if len(found) > 1 else inner, text

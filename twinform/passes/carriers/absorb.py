@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Mapping
 from functools import cache
-from typing import TYPE_CHECKING, Any, TypeGuard, TypeVar, cast
+from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 from lxml import etree
 
@@ -30,7 +30,7 @@ from twinform.ir import (
     Visual,
     World,
 )
-from twinform.ir.node import NOT_CONTENT
+from twinform.ir.node import NOT_CONTENT, are_nodes
 from twinform.ir.record import field_value, fields_of
 from twinform.passes.carriers.sdf_versions import VersionCondition
 from twinform.schemas import Context, Fact, Version, XmlElement, element_xml, reader, table
@@ -173,7 +173,7 @@ def _merged_value(node: Node, name: str, value: object, index: int | None) -> ob
     mine = getattr(node, name)
     if name == "opaque":
         return (*mine, *cast("tuple[Opaque, ...]", value))
-    if _are_nodes(value):
+    if are_nodes(value):
         return _inserted(mine, value, index, node)
     if not isinstance(value, Node):
         return value
@@ -188,10 +188,6 @@ def _written_fields(node: Node) -> dict[str, Any]:
     return {
         name: getattr(node, name) for name in fields if name != "source" and getattr(node, name) != fields[name].default
     }
-
-
-def _are_nodes(value: object) -> TypeGuard[tuple[Node, ...]]:
-    return isinstance(value, tuple) and isinstance(next(iter(cast("tuple[object, ...]", value)), None), Node)
 
 
 def _inserted(mine: tuple[Node, ...], value: tuple[Node, ...], index: int | None, node: Node) -> tuple[Node, ...]:

@@ -192,7 +192,7 @@ def _with_empty(element: Element) -> Element:
     """The inverse of `_without_empty`; an attribute that is there by now stays."""
     if not any(each.name == _EMPTY for each in element.walk()):
         return element
-    empty = [(child.get("attribute"), _blank_value(child)) for child in element.children if child.name == _EMPTY]
+    empty = [(child.get("attribute"), _blank_value(child)) for child in element.find_all(_EMPTY)]
     added = tuple((name, value) for name, value in empty if name and element.get(name) is None)
     children = tuple(_with_empty(child) for child in element.children if child.name != _EMPTY)
     return element.copy(attributes=(*element.attributes, *added), children=children)

@@ -10,11 +10,11 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import field
 from functools import cache
 from operator import is_
-from typing import Any, NamedTuple, Protocol, TypeVar, cast
+from typing import NamedTuple, Protocol, TypeVar, cast
 
 from twinform.dataclass import dataclass
 from twinform.ir import Axis, Dynamics, Limit, Node, Opaque, Surface, rewrite, walk
-from twinform.ir.node import NOT_CONTENT
+from twinform.ir.node import NOT_CONTENT, are_nodes
 from twinform.ir.record import field_values, fields_of
 from twinform.passes.carriers.annotations import annotation, find_annotation, is_annotation, without_annotation
 from twinform.passes.carriers.carriers import is_ours
@@ -99,8 +99,8 @@ def _left_of(value: object, said: Said, notes: Notes, default: object) -> object
     if isinstance(value, Node):
         left = remainder(value, said, notes)
         return default if left is None else left
-    if _are_nodes(value):
-        nodes = cast("tuple[Node, ...]", value)
+    if are_nodes(value):
+        nodes = value
         made = tuple(left for each in nodes if (left := remainder(each, said, notes)) is not None)
         if not made:
             return default
@@ -150,8 +150,8 @@ class Merging:
         return node.copy(**update) if update else node
 
     def _merge_value(self, mine: object, value: object) -> object:
-        if _are_nodes(value):
-            return self.merge_all(cast("tuple[Node, ...]", mine), cast("tuple[Node, ...]", value))
+        if are_nodes(value):
+            return self.merge_all(cast("tuple[Node, ...]", mine), value)
         if not isinstance(value, Node):
             return value if _is_unwritten(mine) else mine
         if isinstance(mine, Node) and type(mine) is type(value):
@@ -178,7 +178,7 @@ class Merging:
         for name, value in field_values(partial).items():
             if isinstance(value, Node):
                 added: object = self.added(value)
-            elif _are_nodes(value):
+            elif are_nodes(value):
                 added = tuple(each for one in value if (each := self.added(one)) is not None)
             else:
                 continue
@@ -214,7 +214,7 @@ def is_bare(partial: Node) -> bool:
 def _holds(node: Node) -> bool:
     """Whether a node has values of its own, or parts that are not ours."""
     values = ((name, value) for name, value in field_values(node).items() if name not in _APART)
-    has_value = any(not (_is_unwritten(value) or isinstance(value, Node) or _are_nodes(value)) for _, value in values)
+    has_value = any(not (_is_unwritten(value) or isinstance(value, Node) or are_nodes(value)) for _, value in values)
     return has_value or any(not is_ours(part) for part in node.opaque)
 
 
@@ -243,10 +243,6 @@ def _keys(named: Iterable[tuple[Node, str | None]], start: int = 0) -> Iterator[
 
 def _is_unwritten(value: object) -> bool:
     return not value and (value is None or value == ())  # to compare records takes longer
-
-
-def _are_nodes(value: object) -> Any:
-    return isinstance(value, tuple) and bool(value) and isinstance(value[0], Node)  # pyright: ignore[reportUnknownArgumentType] - any
 
 
 @cache

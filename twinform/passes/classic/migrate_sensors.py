@@ -123,7 +123,7 @@ class SensorMigration:
     def _split(self, sensor: Sensor, site: PluginSite, found: list[tuple[Plugin, Migration]]) -> Iterator[Sensor]:
         """One sensor for each camera of a multicamera."""
         whole = _bare_element(sensor, "camera")
-        cameras = [child for child in whole.children if child.name == "camera"]
+        cameras = whole.find_all("camera")
         shared = tuple(child for child in whole.children if child.name != "camera")
         gone = {id(plugin) for plugin, _ in found}
         rest = tuple(plugin for plugin in sensor.plugins if id(plugin) not in gone)

@@ -9,6 +9,7 @@ from time import perf_counter
 
 from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink
+from twinform.diagnostics.plurals import plural
 from twinform.ir import Document
 from twinform.ir.changes import ChangeKind, NodeChange, Sizes, changes, count_changes
 from twinform.ir.record import Sourced
@@ -95,7 +96,7 @@ class PrintChanges(PassInstrumentation):
 
 def _counted(old: Document, new: Document) -> str:
     words = zip(("changed", "added", "removed"), count_changes(old, new), strict=True)
-    return ", ".join(f"{count} node{'' if count == 1 else 's'} {word}" for word, count in words if count)
+    return ", ".join(f"{plural(count, 'node')} {word}" for word, count in words if count)
 
 
 def line_of(change: NodeChange) -> str:

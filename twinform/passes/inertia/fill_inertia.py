@@ -7,6 +7,7 @@ from typing import ClassVar, Literal, NamedTuple, Self
 from pydantic import Field, model_validator
 
 from twinform.diagnostics import DiagnosticSink
+from twinform.diagnostics.plurals import plural
 from twinform.diagnostics.rules import FILLED_INERTIA, UNFILLED_INERTIA
 from twinform.ir import Document, Format, Inertial, Link, rewrite
 from twinform.ir.frames import FrameError
@@ -165,7 +166,7 @@ def _check_solid(link: Link, whole: Solid, shapes: tuple[PlacedShape, ...], sink
 def _set_inertial(link: Link, filling: _Filling, sink: DiagnosticSink) -> Link:
     found = filling.solid
     kept = ", as the file has it" if filling.keeps_mass else ""
-    count = f"{len(filling.shapes)} shape{'' if len(filling.shapes) == 1 else 's'}"
+    count = plural(len(filling.shapes), "shape")
     message = f"link {link.name!r} got the inertia of {count}, with a mass of {found.mass:.6g} kg{kept}"
     place = link.inertial.location if link.inertial and link.inertial.source else link.location
     sink.report(FILLED_INERTIA, message, place, found=f"{found.mass:.6g} kg")

@@ -81,7 +81,7 @@ def _of_systems(model: Model) -> Iterator[JointCommand]:
 
 
 def _parameter(interface: Element, name: str) -> float | None:
-    found = (each for each in interface.children if each.name == "param" and each.get("name") == name)
+    found = (each for each in interface.find_all("param") if each.get("name") == name)
     return next((_number(each.text) for each in found), None)
 
 

@@ -58,13 +58,13 @@ def _tidy_parts(model: Model, sink: DiagnosticSink) -> Iterator[Opaque]:
 
 def _is_usable(element: Element, joints: set[str]) -> bool:
     """Whether all joints of a transmission belong to the robot, and it has a joint and a named actuator."""
-    ends = list(_children(element, "joint"))
+    ends = element.find_all("joint")
     named = [joint.get("name") for joint in ends]
     return (
         bool(ends)
         and set(named) <= joints
-        and all(each.get("name") for each in _children(element, "actuator"))
-        and any(_children(element, "actuator"))
+        and all(each.get("name") for each in element.find_all("actuator"))
+        and element.find("actuator") is not None
     )
 
 
@@ -75,12 +75,12 @@ def _drop(part: Opaque, element: Element, sink: DiagnosticSink) -> None:
 
 
 def _complete(element: Element, names: set[str], actuators: set[str]) -> Element:
-    joint = next(_children(element, "joint"))
+    joint = element.find_all("joint")[0]
     name = unique_name(element.get("name") or f"{joint.get('name')}_transmission", names)
     names.add(name)
-    kind = next((child.text or "" for child in _children(element, "type")), None) or element.get("type") or _TYPE
-    interfaces = [child for each in _children(element, "actuator") for child in _children(each, "hardwareInterface")]
-    reduction = next((child for child in _children(element, "mechanicalReduction") if _is_number(child.text)), None)
+    kind = next((child.text or "" for child in element.find_all("type")), None) or element.get("type") or _TYPE
+    interfaces = [child for each in element.find_all("actuator") for child in each.find_all("hardwareInterface")]
+    reduction = next((child for child in element.find_all("mechanicalReduction") if _is_number(child.text)), None)
     children = [Element(name="type", text=kind)]
     for child in element.children:
         if child.name == "joint":
@@ -94,7 +94,7 @@ def _complete(element: Element, names: set[str], actuators: set[str]) -> Element
 
 
 def _complete_joint(element: Element, interfaces: list[Element]) -> Element:
-    if any(_children(element, "hardwareInterface")):
+    if element.find("hardwareInterface") is not None:
         return element
     wanted = tuple(interfaces[:1]) or (Element(name="hardwareInterface", text=_INTERFACE),)
     return element.copy(children=(*element.children, *wanted))
@@ -108,10 +108,6 @@ def _complete_actuator(element: Element, reduction: Element | None, taken: set[s
         kept.append(reduction)
     attributes = tuple((key, name if key == "name" else value) for key, value in element.attributes)
     return element.copy(attributes=attributes, children=tuple(kept))
-
-
-def _children(element: Element, name: str) -> Iterator[Element]:
-    return (child for child in element.children if child.name == name)
 
 
 def _is_number(text: str | None) -> bool:

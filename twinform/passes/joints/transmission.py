@@ -89,9 +89,7 @@ class Transmission:
 def read_transmission(element: Element) -> Transmission:
     """Read a `<transmission>` of ROS 1 or 2; unknown content becomes parameters, or is foreign."""
     type_ = _text(element, "type") or _text(element, "plugin") or element.get("type") or ""
-    ends = {
-        kind: tuple(_read_end(each) for each in element.children if each.name == kind) for kind in ("joint", "actuator")
-    }
+    ends = {kind: tuple(_read_end(each) for each in element.find_all(kind)) for kind in ("joint", "actuator")}
     joints, actuators = ends["joint"], ends["actuator"]
     whole = _text(element, _REDUCTION)
     if whole and len(actuators) == 1 and actuators[0].reduction is None:
@@ -114,7 +112,7 @@ def _read_end(element: Element) -> End:
         role=_text(element, "role") or element.get("role"),
         reduction=_text(element, _REDUCTION) or _text(element, "mechanical_reduction"),
         offset=_text(element, "offset"),
-        interfaces=tuple(each.text for each in element.children if each.name == _INTERFACE and each.text),
+        interfaces=tuple(each.text for each in element.find_all(_INTERFACE) if each.text),
         parameters=tuple(_read_parameters(element, _KNOWN_IN_END)),
     )
 

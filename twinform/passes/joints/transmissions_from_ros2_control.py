@@ -78,9 +78,7 @@ class TransmissionsFromRos2Control(Pass):
 
 
 def _read_system(system: Element) -> Iterator[Transmission]:
-    interfaces = {
-        joint.get("name") or "": _interface_classes(joint) for joint in system.children if joint.name == "joint"
-    }
+    interfaces = {joint.get("name") or "": _interface_classes(joint) for joint in system.find_all("joint")}
     done: set[str] = set()
     for element in system.children:
         if element.name == "transmission":
@@ -103,7 +101,7 @@ def _name_uniquely(transmissions: Iterable[Transmission], taken: set[str]) -> It
 
 def _interface_classes(joint: Element) -> tuple[str, ...]:
     """The classes of ros_control for the commands of a joint; a joint without commands has the class for states."""
-    commands = [each.get("name") or "" for each in joint.children if each.name == "command_interface"]
+    commands = [each.get("name") or "" for each in joint.find_all("command_interface")]
     return tuple(CLASSES[name] for name in commands if name in CLASSES) or (STATE_CLASS,)
 
 

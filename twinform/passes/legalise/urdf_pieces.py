@@ -23,7 +23,7 @@ BALLS = frozenset({"ball", "spherical"})
 def joints_of(element: Element) -> Iterator[str]:
     """The joints that an element at the level of the robot is about."""
     if element.name in _ABOUT_JOINTS:
-        yield from (child.get("name") or "" for child in element.children if child.name == "joint")
+        yield from (child.get("name") or "" for child in element.find_all("joint"))
 
 
 class Standing:

@@ -58,7 +58,7 @@ def _rename_in_element(element: Element, own: frozenset[str | None] = frozenset(
         return element if element.get(_OLD) in own else _rename_attribute(element)
     if not element.children or element.name == "plugin" or is_foreign(element):
         return element
-    frames = frozenset(child.get("name") for child in element.children if child.name == "frame")
+    frames = frozenset(child.get("name") for child in element.find_all("frame"))
     return replace_fields(element, children=tuple(_rename_in_element(child, frames) for child in element.children))
 
 

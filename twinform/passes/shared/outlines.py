@@ -54,10 +54,10 @@ def _distinct(outline: Outline) -> Outline:
 
 def _area(loop: Sequence[Point]) -> float:
     """The area inside, negative where the outline is clockwise."""
-    return sum(_cross(loop[0], loop[each], loop[each + 1]) for each in range(1, len(loop) - 1)) / 2
+    return sum(doubled_area(loop[0], loop[each], loop[each + 1]) for each in range(1, len(loop) - 1)) / 2
 
 
-def _cross(a: Point, b: Point, c: Point) -> float:
+def doubled_area(a: Point, b: Point, c: Point) -> float:
     """Twice the area of a triangle, negative where it is clockwise."""
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 
@@ -117,7 +117,7 @@ def _visible(start: int, ring: list[int], points: Sequence[Point]) -> int:
 
 
 def _turned_left(a: Point, b: Point, c: Point) -> tuple[Point, Point, Point]:
-    return (a, b, c) if _cross(a, b, c) >= 0 else (a, c, b)
+    return (a, b, c) if doubled_area(a, b, c) >= 0 else (a, c, b)
 
 
 def _slope(start: Point, point: Point) -> tuple[float, float]:
@@ -127,12 +127,12 @@ def _slope(start: Point, point: Point) -> tuple[float, float]:
 
 def _is_reflex(place: int, ring: list[int], points: Sequence[Point]) -> bool:
     before, here, after = ring[place - 1], ring[place], ring[(place + 1) % len(ring)]
-    return _cross(points[before], points[here], points[after]) <= 0
+    return doubled_area(points[before], points[here], points[after]) <= 0
 
 
 def _is_covered(point: Point, triangle: tuple[Point, Point, Point]) -> bool:
     a, b, c = triangle
-    return _cross(a, b, point) >= 0 and _cross(b, c, point) >= 0 and _cross(c, a, point) >= 0
+    return doubled_area(a, b, point) >= 0 and doubled_area(b, c, point) >= 0 and doubled_area(c, a, point) >= 0
 
 
 def _clip_ears(ring: list[int], points: Sequence[Point]) -> Iterator[tuple[int, int, int]]:
@@ -152,8 +152,8 @@ def _clip_ears(ring: list[int], points: Sequence[Point]) -> Iterator[tuple[int, 
 
 def _is_ear(ear: tuple[int, int, int], ring: list[int], points: Sequence[Point]) -> bool:
     a, b, c = (points[each] for each in ear)
-    if _cross(a, b, c) < 0:
+    if doubled_area(a, b, c) < 0:
         return False
-    return _cross(a, b, c) == 0 or not any(
+    return doubled_area(a, b, c) == 0 or not any(
         _is_covered(points[each], (a, b, c)) for each in ring if points[each] not in (a, b, c)
     )

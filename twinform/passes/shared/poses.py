@@ -250,7 +250,7 @@ def _frame_of(pose: Element) -> str | None:
 
 
 def _own_frames(element: Element) -> frozenset[str]:
-    return frozenset(child.get("name") or "" for child in element.children if child.name == "frame")
+    return frozenset(child.get("name") or "" for child in element.find_all("frame"))
 
 
 def _names_frame(element: Element) -> bool:

@@ -155,7 +155,7 @@ def _outlines(geometry: Geometry, shape: Polyline) -> Iterable[list[Vector2]]:
     others = (part.element for part in geometry.opaque if part.element and part.element.name == "polyline")
     yield [_point(part.element.text) for part in shape.opaque if part.element and part.element.name == "point"]
     for other in others:
-        yield [_point(child.text) for child in other.children if child.name == "point"]
+        yield [_point(child.text) for child in other.find_all("point")]
 
 
 def _point(text: str | None) -> Vector2:

@@ -366,7 +366,7 @@ class _Fold:
 
 
 def _written_pose(frame: Frame) -> str:
-    return " ".join(each.text or "" for each in to_element(frame, "frame", "sdf").children if each.name == "pose")
+    return " ".join(each.text or "" for each in to_element(frame, "frame", "sdf").find_all("pose"))
 
 
 def _is_second(part: Opaque) -> bool:

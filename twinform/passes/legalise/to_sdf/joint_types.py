@@ -67,7 +67,7 @@ class UrdfJoints(ModelPass):
         mimic = _mimic_of(joint)
         if joint.axis is None or mimic is None or not useless_leader(joint, mimic, known):
             return joint
-        pieces = [each for each in to_element(joint, "joint", "urdf").children if each.name == "mimic"]
+        pieces = to_element(joint, "joint", "urdf").find_all("mimic")
         axis = joint.axis.copy(mimic=None)
         bare = joint.copy(axis=None if axis == Axis.unchecked() else axis)
         message = f"joint {joint.name!r} cannot mimic {mimic.joint!r} in SDF"

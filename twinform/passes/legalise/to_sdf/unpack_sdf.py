@@ -22,7 +22,7 @@ from twinform.ir import (
     map_children,
     rewrite,
 )
-from twinform.ir.node import NOT_CONTENT
+from twinform.ir.node import NOT_CONTENT, are_nodes
 from twinform.ir.record import fields_of
 from twinform.passes.carriers.absorb import CarrierError, absorb, has_first, inside, is_repeated
 from twinform.passes.carriers.annotations import find_annotation, without_annotation
@@ -234,11 +234,6 @@ def _is_new(other: Node, node: Node) -> bool:
 
 
 def _goes_with(other: object, here: object, default: object) -> bool:
-    if other == default or here in (default, other) or _are_nodes(other):
+    if other == default or here in (default, other) or are_nodes(other):
         return True
     return isinstance(other, Node) and type(other) is type(here) and _is_new(other, cast("Node", here))
-
-
-def _are_nodes(value: object) -> bool:
-    """Whether a value is a list of nodes, to which more can be added."""
-    return isinstance(value, tuple) and bool(value) and isinstance(value[0], Node)  # pyright: ignore[reportUnknownArgumentType] - any

@@ -60,5 +60,5 @@ def _sensed_collisions(model: Model) -> Iterator[_Sensed]:
     for extension in model.extensions:
         for sensor in (each for each in extension.content if each.name == "sensor"):
             where = extension.location.at(f"sensor[@name='{sensor.get('name')}']/contact/collision")
-            for contact in (each for each in sensor.children if each.name == "contact"):
-                yield from (_Sensed(each.text or "", where) for each in contact.children if each.name == "collision")
+            for contact in sensor.find_all("contact"):
+                yield from (_Sensed(each.text or "", where) for each in contact.find_all("collision"))

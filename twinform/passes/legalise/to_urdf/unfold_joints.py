@@ -5,6 +5,7 @@ from functools import partial
 from typing import ClassVar, NamedTuple
 
 from twinform.diagnostics import Fate, rules
+from twinform.diagnostics.plurals import plural
 from twinform.ir import Axis, Dynamics, Format, Joint, JointType, Limit, Link, Mimic, Model, Opaque, Pose, count_parts
 from twinform.ir.defaults import AXIS, UNLIMITED
 from twinform.passes.carriers.annotations import with_annotation
@@ -188,7 +189,7 @@ def _account_for(joint: Joint, keeper: UrdfKeeper) -> Joint:
     keeper.sink.report(rules.UNFOLDED_JOINT, message, joint.location.at("@type"), found=joint.type)
     keeper.account(rules.UNFOLDED_JOINT, f"joint {joint.name!r} has the type {joint.type}", joint.location)
     note = partial(keeper.sink.account, Fate.APPROXIMATED, rules.UNFOLDED_JOINT, location=joint.location, weight=0)
-    links = f"{between} link{'' if between == 1 else 's'} between"
+    links = f"{plural(between, 'link')} between"
     note(message=f"{links} the joints of {joint.name!r}, of {CHAIN_MASS:g} kg")
     if joint.type == "ball":
         lock = f"where the second of the three joints of {joint.name!r} is at 90 deg, the others turn about one axis"
