@@ -27,6 +27,7 @@ _NOT_COMPARED = frozenset({
 """Names of their own, memory, and the boxes around geoms: these follow from others, in single precision."""
 _PATHS = ("_pathadr", "pathadr")
 _TOLERANCE = 1e-9
+_OF_INERTIA = frozenset({"body_iquat", "body_inertia"})
 _OF_DRAWN_TENDONS = frozenset({"tendon_rgba", "tendon_width", "tendon_matid"})
 """A fixed tendon takes these of its class, draws nothing, and has no attributes for them."""
 
@@ -84,8 +85,9 @@ def differences(mujoco: Any, one: Any, other: Any) -> list[str]:
     import numpy as np  # noqa: PLC0415 - it comes with MuJoCo, which is not everywhere
 
     found = [name for name, a, b in _arrays(one, other) if not _are_equal(np, a, b)]
-    if "body_iquat" in found and _are_equal(np, _inertias(mujoco, np, one), _inertias(mujoco, np, other)):
-        found.remove("body_iquat")  # the principal axes of one matrix, in another order or sign
+    if _OF_INERTIA.intersection(found) and _are_equal(np, _inertias(mujoco, np, one), _inertias(mujoco, np, other)):
+        # the principal axes of one matrix, in another order or sign
+        found = [name for name in found if name not in _OF_INERTIA]
     if "actuator_ctrlrange" in found and _are_equal(np, _controls(np, one), _controls(np, other)):
         found.remove("actuator_ctrlrange")  # some actuators cannot say a range that does not limit
     if "names" in found or one.names != other.names:

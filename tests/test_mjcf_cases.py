@@ -71,3 +71,11 @@ def _converted(path: Path, to: Literal["sdf", "urdf", "mjcf"] = "mjcf") -> twinf
         return twinform.convert(path, to=to, comments=False)
     except twinform.CompileError:
         return None
+
+
+_FROM = sorted((_CASES.parent / "from_mjcf").glob("*.mjcf"))
+
+
+@pytest.mark.parametrize("case", _FROM, ids=lambda case: case.stem)
+def test_a_file_of_mjcf_becomes_the_sdf_beside_it(case: Path) -> None:
+    assert_expected(twinform.convert(case, to="sdf").text, case.with_suffix(".expected.sdf"))

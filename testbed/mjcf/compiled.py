@@ -116,13 +116,14 @@ class Compiled:
             mujoco.mj_forward(model, data)
         mass = np.zeros((model.nv, model.nv))
         mujoco.mj_fullM(model, data, mass)
-        poses = {model.body(i).name: _pose(data.xpos[i], data.xmat[i]) for i in range(1, model.nbody)}
-        sites = {model.site(i).name: _pose(data.site_xpos[i], data.site_xmat[i]) for i in range(model.nsite)}
-        geoms = [_pose(data.geom_xpos[i], data.geom_xmat[i]) for i in range(model.ngeom)]
+        poses = {model.body(i).name: pose_of(data.xpos[i], data.xmat[i]) for i in range(1, model.nbody)}
+        sites = {model.site(i).name: pose_of(data.site_xpos[i], data.site_xmat[i]) for i in range(model.nsite)}
+        geoms = [pose_of(data.geom_xpos[i], data.geom_xmat[i]) for i in range(model.ngeom)]
         return Motion(mass, data.qfrc_bias.copy(), sites | poses, geoms)
 
 
-def _pose(place: Array, rotation: Array) -> Array:
+def pose_of(place: Array, rotation: Array) -> Array:
+    """A place and a rotation of MuJoCo as a 4x4 matrix."""
     made = np.eye(4)
     made[:3, :3], made[:3, 3] = np.reshape(rotation, (3, 3)), place
     return made

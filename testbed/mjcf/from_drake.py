@@ -139,7 +139,7 @@ class _Match:
                 positions[start : start + count] = there[addresses] = draw.uniform(-math.pi, math.pi, count)
         plant.SetPositions(context, positions)
         if joint.type_name() == "ball_rpy":
-            there[addresses[0] : addresses[0] + 4] = _quaternion(self._ball_turn(context, joint))
+            there[addresses[0] : addresses[0] + 4] = quaternion_of(self._ball_turn(context, joint))
 
     def _ball_turn(self, context: Any, joint: Any) -> Array:
         """How far the child of a ball joint is turned from where it is drawn, in its own axes."""
@@ -172,7 +172,7 @@ class _Match:
         return matrix
 
 
-def _quaternion(turn: Array) -> Array:
+def quaternion_of(turn: Array) -> Array:
     """A rotation as a quaternion w x y z."""
     values, vectors = np.linalg.eigh(_symmetric(turn))
     return vectors[:, int(np.argmax(values))]

@@ -220,6 +220,8 @@ class Builder:
     def _may_be_left_out(self, row: Fact) -> bool:
         """Whether an element in which nothing but defaults was written means the same as none."""
         fact = self.table.resolve(row)
+        if self.format == "mjcf":  # such as a section; what has a name is there by itself
+            return "@name" not in rows_by_name(fact.rows, self.version)
         if row.count != "?" or row.kind:
             return False
         if fact.type is not None:

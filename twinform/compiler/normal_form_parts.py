@@ -105,6 +105,10 @@ def same(one: Value, other: Value) -> bool:
 
 def value_of(text: str, row: Fact, format: str) -> Value:
     """Return the value of a text by the type of its row."""
+    if format == "mjcf" and row.type == "quaternion" and (turn := _mjcf_rotation(text)) is not None:
+        return PoseValue(turn)
+    if format == "mjcf" and row.default and row.type and row.type.startswith("double."):
+        text = " ".join([text, *row.default.split()[len(text.split()) :]])  # a list may say its first numbers alone
     return typed_value(row.type, text, format) or Text(text)
 
 
@@ -139,6 +143,15 @@ def sdf_pose(element: XmlElement) -> Transform | None:
         turned = "quat_xyzw" if len(numbers) == _QUATERNION else "rpy"
         pose = {"xyz": numbers[:3], turned: numbers[3:], "degrees": degrees}
         return Transform.from_pose(Pose.model_validate(pose))
+    except ValueError:
+        return None
+
+
+def _mjcf_rotation(text: str) -> Transform | None:
+    """Return the rotation of a quaternion w x y z, of any length but zero; None for other texts."""
+    try:
+        w, x, y, z = _numbers(text) or ()
+        return Transform.from_pose(Pose.model_validate({"quat_xyzw": (x, y, z, w)}))
     except ValueError:
         return None
 

@@ -225,6 +225,8 @@ def _format_number(value: float) -> str:
 
 
 NUMBERS = frozenset({"double", "int", "uint", "vector3", "vector2d", "vector2i", "quaternion", "time"})
+_LISTS = ("double", "int.", "ints")
+"""How the types of lists of numbers begin, such as `double.1-3`."""
 COLORS = frozenset({"color", "color4"})
 
 
@@ -233,7 +235,7 @@ def typed_value(type: str | None, text: str, format: str = "sdf", unit: str = ""
 
     A text that is not of its type is kept as text.
     """
-    if type != "bool" and type not in NUMBERS and type not in COLORS:
+    if type != "bool" and type not in NUMBERS and type not in COLORS and not (type or "").startswith(_LISTS):
         return None
     try:
         parsed = parse_value(type, text, format)

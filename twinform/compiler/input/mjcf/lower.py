@@ -31,10 +31,13 @@ from twinform.ir import Document, Element, Format, Frame, Light, Link, Model, Op
 from twinform.passes.carriers.annotations import MADE_NAME, WORLDBODY, annotation, with_annotation
 from twinform.passes.carriers.carriers import NAMESPACE, PREFIX
 from twinform.passes.legalise.changed_names import NAME
+from twinform.passes.legalise.to_mjcf.writing_context import ROOT
 from twinform.passes.shared.mesh_solids import Meshes
 from twinform.passes.shared.nodes import reserve_name
 from twinform.schemas import DEFAULT_SDF_VERSION, Context, XmlElement
 
+_MARK = Element.unchecked(name=ROOT)
+"""What says that a model or world was read of MJCF, so that it is written as MJCF has it."""
 _MODEL = "model"
 """The name of a model in a file that has none."""
 
@@ -83,9 +86,7 @@ class FileLowering:
             self._model(number, tree, name if alone else tree.name, taken) for number, tree in enumerate(self.trees)
         ]
         if not self.is_world:
-            (model,) = models
-            model = with_rest(model, in_sections(self._left(self._scene())))
-            return self._in_sdf(models=(model,))
+            return self._in_sdf(models=tuple(models))
         return self._in_sdf(worlds=(self._world(name, models),))
 
     def _in_sdf(self, models: tuple[Model, ...] = (), worlds: tuple[World, ...] = ()) -> Document:
@@ -116,7 +117,11 @@ class FileLowering:
             opaque=_name_mark(name, given),
             source=tree.source,
         )
-        return with_rest(model, in_sections(self._left_of(number)))
+        left = self._left_of(number)
+        if not self.is_world:
+            for tag, elements in self._left(self._scene()).items():
+                left.setdefault(tag, []).extend(elements)
+        return with_rest(model, in_sections(left))
 
     def _close_loops(self, number: int, lowering: TreeLowering, parts: TreeParts) -> None:
         for piece in self.owners.about(number, "equality"):
@@ -157,7 +162,7 @@ class FileLowering:
 
     def _left_of(self, number: int) -> dict[str, list[Element]]:
         """Return what no node says of the sections and is about one tree alone."""
-        left: dict[str, list[Element]] = {}
+        left = {ROOT: [_MARK]}
         for tag in self.sections.tags:
             if tag in {WORLDBODY, "asset", "compiler", "option", "default"}:
                 continue
@@ -185,8 +190,7 @@ class FileLowering:
                 if element is not None:
                     left.setdefault(section.tag, []).append(element)
         attributes = self.keeper.rest_element(self.root, with_inside=False).attributes
-        if attributes:
-            left["mujoco"] = [Element.unchecked(name="mujoco", attributes=attributes)]
+        left[ROOT] = [_MARK.copy(attributes=attributes)]
         return left
 
     def _left_of_piece(self, piece: Piece, section: str) -> Element | None:

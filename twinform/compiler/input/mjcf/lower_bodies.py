@@ -133,7 +133,7 @@ class TreeLowering:
         at = body.transform()
         is_root = here.parent is None
         pose = None if is_root else pose_of(at, here.parent, body.source)
-        inertial = inertial_of(self._inertias[body], self._scale, self._keeper)
+        inertial, weightless = inertial_of(self._inertias[body], self._scale, self._keeper)
         shapes = self._geoms.lower(body, name)
         self.parts.masks.append([Bits.of(geom) for geom in body.all_of("geom")])
         gravity = None
@@ -142,7 +142,7 @@ class TreeLowering:
             gravity = False
         joints = [each for each in body.all_of(*JOINTS) if joint_type(each) != FREE]
         between = self._between(joints, pose)
-        rest = (*self._keeper.rest(body), *shapes.rest, *self._free_joint(body))
+        rest = (*self._keeper.rest(body), *weightless, *shapes.rest, *self._free_joint(body))
         link = Link.unchecked(
             name=name,
             pose=pose,

@@ -5,10 +5,10 @@ from itertools import combinations
 from typing import NamedTuple
 
 from twinform.compiler.input.mjcf.pieces import Numbers, Piece, pose_of
-from twinform.compiler.input.mjcf.remainders import RemainderKeeper
+from twinform.compiler.input.mjcf.remainders import RemainderKeeper, holder
 from twinform.compiler.input.mjcf.settings import MassSettings
 from twinform.diagnostics import rules
-from twinform.ir import Inertia, Inertial
+from twinform.ir import Inertia, Inertial, Opaque
 from twinform.ir.solids import (
     ELEMENTS,
     Solid,
@@ -72,8 +72,9 @@ def _solids(body: Piece, settings: MassSettings, solid_of: SolidOf) -> Sequence[
     for geom in body.all_of("geom"):
         if not first <= int(geom.peek("group") or "0") <= last:
             continue
-        mass, density = geom.number("mass"), geom.number("density")
-        density = DENSITY if density is None else density
+        # They stay with the geom, whose mass the link has from now on.
+        mass = next(iter(geom.peek_numbers("mass")), None)
+        density = next(iter(geom.peek_numbers("density")), DENSITY)
         # A mesh that has no mass need not be there.
         solid = solid_of(geom, density) if mass is None and density else None
         if mass is not None:
@@ -112,17 +113,21 @@ def scale_of(settings: MassSettings, masses: Sequence[float]) -> float:
     return settings.total / whole if settings.total > 0 and whole > 0 else 1.0
 
 
-def inertial_of(found: WrittenInertia, scale: float, keeper: RemainderKeeper) -> Inertial:
-    """Return the inertial of a link; one that has no mass in MJCF gets a token, as SDF would give it 1 kg."""
+def inertial_of(found: WrittenInertia, scale: float, keeper: RemainderKeeper) -> tuple[Inertial, tuple[Opaque, ...]]:
+    """Return the inertial of a link, and what the link keeps of it beside.
+
+    A link that has no mass in MJCF gets a token, as SDF would give it 1 kg; it keeps an inertial that says so.
+    """
     solid, piece = found.solid, found.piece
     if scale != 1.0:
         solid = with_mass(solid, solid.mass * scale)
-    rest = keeper.rest(piece) if found.is_written else ()
     if solid.mass <= LEAST:
         message = f"body {piece.name!r} has no mass; SDF needs one, which is {TOKEN.mass:g} kg"
         keeper.approximate(message, piece.location, rules.TINY_MASS)
-        return with_annotation(TOKEN, UNSAID, "inertial")
+        kept = (holder(keeper.whole(piece)),) if found.is_written else ()
+        return with_annotation(TOKEN, UNSAID, "inertial"), kept
+    rest = keeper.rest(piece) if found.is_written else ()
     at = found.frame if found.is_written else Transform(translation=solid.center)
     inertia = Inertia.unchecked(**dict(zip(ELEMENTS, solid.inertia, strict=True)))
     pose = pose_of(at, source=piece.source)
-    return Inertial.unchecked(pose=pose, mass=solid.mass, inertia=inertia, opaque=rest, source=piece.source)
+    return Inertial.unchecked(pose=pose, mass=solid.mass, inertia=inertia, opaque=rest, source=piece.source), ()

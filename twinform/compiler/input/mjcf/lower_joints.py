@@ -95,7 +95,7 @@ def _range(piece: Piece, ref: float) -> tuple[float | None, float | None]:
         return None, None
     piece.take("limited")
     least, most = piece.numbers("range")
-    lower, upper, _ = rounded((least - ref, most - ref, 0.0))
+    lower, upper, _ = rounded((least - ref, most - ref, 0.0)) if ref else (least, most, 0.0)
     return (lower if math.isfinite(lower) else None), (upper if math.isfinite(upper) else None)
 
 

@@ -12,9 +12,10 @@ _SPECULAR = 0.5
 def lower_material(geom: Piece, assets: AssetTable) -> Material | None:
     """Return how a geom looks; None where neither it nor an asset says so. The color of the geom beats its material."""
     asset = assets.find("material", geom.peek("material"))
-    own = geom.numbers("rgba")
     if asset is None:
+        own = geom.numbers("rgba")
         return None if not own else Material.unchecked(ambient=_color(own), diffuse=_color(own), source=geom.source)
+    own = geom.peek_numbers("rgba")  # that the geom says it and not its material, stays with the geom
     rgba = own or asset.peek_numbers("rgba") or _WHITE
     if not own:
         asset.take("rgba")

@@ -22,23 +22,26 @@ _HEADER, _TRIANGLE = 84, 50
 """The bytes of a binary STL file before its triangles, and of each of them."""
 
 
-def mesh_asset(context: MjcfContext, mesh: Mesh) -> str | None:
-    """The name of the asset of a mesh; None, with a finding, where MuJoCo cannot read the file."""
+def mesh_asset(context: MjcfContext, mesh: Mesh, wanted: str = "") -> str | None:
+    """The name of the asset of a mesh; None, with a finding, where MuJoCo cannot read the file.
+
+    The name is `wanted`, which it had in MJCF, or that of the file.
+    """
     uri = (mesh.uri or "").strip()
     scale = None if mesh.scale in (None, (1.0, 1.0, 1.0)) else mesh.scale
-    key = ("mesh", uri, scale)
+    key = ("mesh", uri, scale, wanted)
     if key not in context.files:
-        context.files[key] = _new_mesh(context, mesh, uri, scale)
+        context.files[key] = _new_mesh(context, mesh, uri, scale, wanted)
     return context.files[key]
 
 
-def _new_mesh(context: MjcfContext, mesh: Mesh, uri: str, scale: Vector3 | None) -> str | None:
+def _new_mesh(context: MjcfContext, mesh: Mesh, uri: str, scale: Vector3 | None, wanted: str) -> str | None:
     why = _why_unread(context, mesh, uri)
     if why is not None:
         context.sink.report(rules.UNREADABLE_MESH, f"mesh {uri!r} {why}", mesh.location, found=uri, help=_CONVERT)
         return None
     file = file_path(context, uri, mesh.location)
-    name = context.name("mesh", PurePosixPath(file).stem or "mesh", mesh.location)
+    name = context.name("mesh", wanted or PurePosixPath(file).stem or "mesh", mesh.location)
     attributes: list[tuple[str, Value]] = [("name", name), ("file", file), ("scale", scale)]
     context.add("asset", make_element("mesh", attributes, (), mesh.source))
     return name
@@ -72,18 +75,18 @@ def _is_binary_stl(context: MjcfContext, path: Path) -> bool:
     return len(head) == _HEADER and size >= _HEADER + _TRIANGLE * int.from_bytes(head[80:84], "little")
 
 
-def height_field(context: MjcfContext, shape: Heightmap) -> str | None:
-    """The name of the asset of a terrain; None, with a finding, where MuJoCo cannot read the file."""
+def height_field(context: MjcfContext, shape: Heightmap, wanted: str = "") -> str | None:
+    """The name of the asset of a terrain, `wanted` or that of the file; None, with a finding, where no file is a PNG."""
     uri = (shape.uri or "").strip()
     if PurePosixPath(uri).suffix.lower() != ".png":
         message = f"terrain {uri!r} is no PNG, and MuJoCo reads no other image"
         context.sink.report(rules.UNSAYABLE_SHAPE, message, shape.location, found=uri, help="save it as PNG, in gray")
         return None
     size = vector_in(shape, "size", (1.0, 1.0, 1.0))
-    key = ("hfield", uri, size)
+    key = ("hfield", uri, size, wanted)
     if key not in context.files:
         file = file_path(context, uri, shape.location)
-        name = context.name("hfield", PurePosixPath(file).stem, shape.location)
+        name = context.name("hfield", wanted or PurePosixPath(file).stem, shape.location)
         # Half of the extents, the height above the origin, and how far the ground goes down below it.
         extent = (size[0] / 2, size[1] / 2, size[2], max(size[2], 1.0) / 100)
         attributes: list[tuple[str, Value]] = [("name", name), ("file", file), ("size", extent)]

@@ -60,7 +60,10 @@ def orientation(transform: Transform) -> tuple[float, float, float, float]:
     if transform.is_unturned:
         return _UNTURNED
     x, y, z, w = transform.quaternion()
-    if w < 0:
+    written = transform.notation.quat_xyzw if transform.notation else None
+    if written is not None and written[3] < 0:  # both mean one rotation, and the one that was read stays
+        x, y, z, w = (-each if w > 0 else each for each in (x, y, z, w))
+    elif w < 0:
         x, y, z, w = -x, -y, -z, -w
     x, y, z = rounded((x, y, z))
     return (rounded((w, 0.0, 0.0))[0], x + 0.0, y + 0.0, z + 0.0)

@@ -76,7 +76,8 @@ def geom_elements(context: MjcfContext, body: Body) -> list[Element]:
         if id(visual) not in done and (shape := _shape_of(context, body, visual)) is not None:
             # Beside visuals in their own group, one that touches too would count as hidden.
             group = [] if done else _group(context, visual, _SEEN)
-            more = [*_UNTOUCHED, *group, *_WEIGHTLESS, *look_of(context, body, visual)]
+            weightless = () if context.is_of_mjcf else _WEIGHTLESS
+            more = [*_UNTOUCHED, *group, *weightless, *look_of(context, body, visual)]
             found.append(_geom(context, body, visual, shape, more))
     return found
 
@@ -93,6 +94,7 @@ def _geom(context: MjcfContext, body: Body, part: AnyPart, shape: Solid, more: A
     name = context.name_in(body, "geom", part.name, part)
     if name is not None:
         context.written_geoms[id(part)] = name
+        context.note_made_name("geom", part)
     at = context.resolve(part.pose, body).compose(shape.at)
     attributes = [("name", name), *shape.attributes, *placement(at), *more]
     return with_kept(make_element("geom", attributes, (), part.source), part)
@@ -107,7 +109,7 @@ def _shape_of(context: MjcfContext, body: Body, part: AnyPart) -> Solid | None:
         # A mesh stands for a shape that MJCF lacks.
         replaced = context.replacer.replace(part, body.name)
         shape = replaced.geometry.shape if replaced.geometry and replaced.geometry.shape else written
-        found = _solid(context, body, shape, _kept_size(part))
+        found = _solid(context, body, shape, part)
     except NoMeshError as error:
         message = f"{_called(part, body)} is a {written.kind}, which MJCF does not have"
         context.sink.report(rules.UNSAYABLE_SHAPE, message, part.location, found=written.kind, help=str(error))
@@ -122,18 +124,18 @@ def _called(part: Visual | Collision, body: Body) -> str:
     return f"{type(part).__name__.lower()} {part.name!r} of link {body.name!r}"
 
 
-def _solid(context: MjcfContext, body: Body, shape: Shape, kept: Sequence[float]) -> Solid | str | None:
+def _solid(context: MjcfContext, body: Body, shape: Shape, part: Visual | Collision) -> Solid | str | None:
     """The shape in MJCF; why it has none; or None where that was reported."""
     match shape:
         case Mesh():
-            name = mesh_asset(context, shape)
+            name = mesh_asset(context, shape, _kept(part, "mesh"))
             return None if name is None else Solid([("type", "mesh"), ("mesh", name)])
         case Plane():
             if body.moves:
                 return "is a plane on a link that moves, and MuJoCo takes planes on fixed bodies alone"
-            return _plane(shape, kept)
+            return _plane(shape, tuple(map(float, _kept(part, "size").split())))
         case Heightmap():
-            name = height_field(context, shape)
+            name = height_field(context, shape, _kept(part, "hfield"))
             context.leave(shape, without_elements(shape, {"size", "pos"}))
             at = Pose.unchecked(xyz=vector_in(shape, "pos", (0.0, 0.0, 0.0)))
             return None if name is None else Solid([("type", "hfield"), ("hfield", name)], Transform.from_pose(at))
@@ -158,10 +160,9 @@ def _size(shape: Box | Sphere | Ellipsoid | Cylinder | Capsule) -> tuple[float, 
             return found
 
 
-def _kept_size(part: Visual | Collision) -> Sequence[float]:
-    """The size of the geom that a visual or collision was read from, where it keeps that; otherwise nothing."""
-    kept = next((size for each in kept_elements(part) if each.name == "geom" and (size := each.get("size"))), "")
-    return tuple(map(float, kept.split()))
+def _kept(part: Visual | Collision, attribute: str) -> str:
+    """An attribute of the geom that a visual or collision was read from, where it keeps that; otherwise nothing."""
+    return next((value for each in kept_elements(part) if each.name == "geom" and (value := each.get(attribute))), "")
 
 
 def _plane(shape: Plane, kept: Sequence[float]) -> Solid:

@@ -13,7 +13,7 @@ from twinform.ir.document import Format
 from twinform.ir.solids import Symmetric, principal_moments, tensor, turned
 from twinform.passes.carriers.token_mass import MOMENTS, TOKEN_MOMENT, has_token_mass, is_chain_token
 from twinform.passes.legalise.to_mjcf.elements import Value, make_element, orientation, position
-from twinform.passes.legalise.to_mjcf.kept_mjcf import with_kept
+from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements, with_kept
 from twinform.passes.legalise.to_mjcf.writing_context import Body, MjcfContext
 
 MOST_FOR_NOTHING = 1e-15
@@ -78,7 +78,7 @@ def inertial_elements(context: MjcfContext, body: Body) -> list[Element]:
         return []
     weight = weight_of(link)
     if weight.is_nothing:
-        return []
+        return [each for each in kept_elements(link) if each.name == "inertial"]
     at = context.resolve(link.inertial.pose if link.inertial else None, body)
     inertia = _possible(context, link, weight.inertia)
     attributes: list[tuple[str, Value]] = [("pos", position(at))]

@@ -23,7 +23,10 @@ def with_kept_joint(element: Element, joint: Joint) -> Element:
         own = tuple(pair for pair in element.attributes if pair[0] not in _FORCE)
         element = element.copy(attributes=own)
     written = tuple((name, _with_rest(name, value, kept)) for name, value in element.attributes)
-    return _counted_from(with_kept(element.copy(attributes=written), joint))
+    made = with_kept(element.copy(attributes=written), joint)
+    if made.get(_FORCE[1]) is None:  # where nothing is limited, it need not be said
+        made = made.copy(attributes=tuple(pair for pair in made.attributes if pair != (_FORCE[0], "false")))
+    return _counted_from(made)
 
 
 def _with_rest(name: str, value: str, kept: Element) -> str:

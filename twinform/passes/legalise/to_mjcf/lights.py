@@ -40,6 +40,7 @@ def world_lights(context: MjcfContext) -> list[Element]:
 
 def _light(context: MjcfContext, light: Light, place: Transform) -> Element:
     name = context.name("light", light.name, light.location)
+    context.note_made_name("light", light)
     return with_kept(make_element("light", [("name", name), *light_attributes(light, place)], (), light.source), light)
 
 

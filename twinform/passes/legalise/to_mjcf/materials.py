@@ -20,28 +20,36 @@ def look_of(context: MjcfContext, body: Body, visual: Visual, twin: Collision | 
     `twin` is the collision that is the same geom, and keeps what it was read with.
     """
     found = look(visual)
-    kept = next(
-        (name for each in kept_elements(twin or visual) if each.name == "geom" and (name := each.get("material"))), None
-    )
+    kept = next((each for each in kept_elements(twin or visual) if each.name == "geom" and each.get("material")), None)
     if kept is not None:
-        return _of_kept_material(context, kept, found)
+        return _of_kept_material(context, kept.get("material") or "", found, has_own=kept.get("rgba") is not None)
     textures = _textures(context, visual, found)
     if not found.material and not textures:
         return [("rgba", found.rgba)]
     return [("material", _material(context, body, visual, found, textures))]
 
 
-def _of_kept_material(context: MjcfContext, name: str, found: Look) -> list[tuple[str, Value]]:
+def _of_kept_material(context: MjcfContext, name: str, found: Look, *, has_own: bool) -> list[tuple[str, Value]]:
     """The color of a geom that keeps the material which it was read with, where it has not that of the material.
 
-    The asset gets what visuals say of it; what else it had is added where models keep it.
+    The asset gets what visuals say of it, but for the color of a geom that had its own; what else it had is added where
+    models keep it.
     """
-    key = ("kept material", name)
+    key, assets = ("kept material", name), context.sections["asset"]
     if key not in context.files:
         context.names.setdefault("material", set()).add(name)
-        context.add("asset", make_element("material", [("name", name), ("rgba", found.rgba), *found.material]))
-        context.files[key] = attribute_text(found.rgba or ())
-    return [] if context.files[key] == attribute_text(found.rgba or ()) else [("rgba", found.rgba)]
+        context.files[key] = str(len(assets))
+        context.add("asset", make_element("material", [("name", name), *found.material]))
+    if has_own:
+        return [("rgba", found.rgba)]
+    color = ("kept color", name)
+    if color not in context.files:
+        context.files[color] = attribute_text(found.rgba or ())
+        place = int(context.files[key] or 0)
+        first, *others = assets[place].attributes
+        own = make_element("material", [("rgba", found.rgba)]).attributes
+        assets[place] = assets[place].copy(attributes=(first, *own, *others))
+    return [] if context.files[color] == attribute_text(found.rgba or ()) else [("rgba", found.rgba)]
 
 
 def _material(

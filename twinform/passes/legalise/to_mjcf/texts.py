@@ -60,6 +60,8 @@ from twinform.passes.carriers.mjcf_texts import (
 )
 from twinform.passes.carriers.partial_nodes import EXISTENCE, PLACE, REST, WRITTEN, Left, is_bare, remainder
 from twinform.passes.carriers.said_by_mjcf import said_by_mjcf, said_of_limit
+from twinform.passes.legalise.to_mjcf.inertials import weight_of
+from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements
 from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext
 from twinform.passes.legalise.to_mjcf.written_elements import WrittenElements
 from twinform.passes.legalise.to_urdf.express_axes import ExpressAxes
@@ -108,6 +110,11 @@ def add_texts(context: MjcfContext) -> None:
 def _is_rest(xml: XmlElement) -> bool:
     """Whether a partial element belongs to one that MJCF says."""
     return next(xml.iterchildren(_MARK), None) is not None
+
+
+def _is_mocap(link: Link) -> bool:
+    """Whether a link keeps that only a program moves it."""
+    return any(each.name == "body" and each.get("mocap") == "true" for each in kept_elements(link))
 
 
 def _only_holds(joint: Joint) -> bool:
@@ -187,15 +194,27 @@ class _Texts:
 
     def add_additions(self, model: Model) -> None:
         """Add texts for what was added to a document of MJCF while it was SDF: plugins and the like."""
-        nothing = {"visuals": (), "collisions": (), "sensors": (), "lights": ()}
-        links = (each.copy(**nothing) for each in model.links)
-        moving = (each for each in model.joints if each.type != "fixed")
+        # What touches what, geoms say; and what hangs between the joints of a body, is made again.
+        nothing = {"visuals": (), "collisions": (), "sensors": (), "lights": (), "self_collide": None}
+        links = [
+            each.copy(
+                **nothing,
+                inertial=None if weight_of(each).is_nothing else each.inertial,
+                kinematic=None if _is_mocap(each) else each.kinematic,
+            )
+            for each in model.links
+            if each.name not in self.hidden
+        ]
+        model = model.copy(self_collide=None, static=None)
+        joints = [each.copy(child=None) if each.child in self.hidden else each for each in model.joints]
+        moving = (each.copy(sensors=()) for each in joints if each.type != "fixed")
         for kind, parts in (("model", (model,)), ("link", links), ("joint", moving)):
             for each in parts:
                 self.joint = each if isinstance(each, Joint) else None
                 left = remainder(without_ours(each), self.said, lambda _: ())
                 if left is not None and not is_bare(left):
-                    self._add_text(kind, each.name, left, each)
+                    name = next(iter(self._other_names(each)), each.name)
+                    self._add_text(kind, name, left.copy(name=name), each)
 
     def said(self, node: Node) -> frozenset[str] | Left | None:
         """The fields of a node that this file says, and what its writer left of it."""

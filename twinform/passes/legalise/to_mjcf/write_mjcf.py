@@ -14,11 +14,12 @@ from twinform.passes.legalise.to_mjcf.elements import make_element
 from twinform.passes.legalise.to_mjcf.equalities import add_equalities
 from twinform.passes.legalise.to_mjcf.kept_sections import SINGLE, add_kept_sections
 from twinform.passes.legalise.to_mjcf.lights import world_lights
+from twinform.passes.legalise.to_mjcf.made_names import remove_made_names
 from twinform.passes.legalise.to_mjcf.mimics import add_gearboxes, add_mimics
 from twinform.passes.legalise.to_mjcf.options import add_options
 from twinform.passes.legalise.to_mjcf.sites import world_sites
 from twinform.passes.legalise.to_mjcf.texts import add_texts
-from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext
+from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext, is_made_name
 from twinform.passes.shared.replaced_shapes import FOLDER, ShapeReplacer
 
 _COMPILER = make_element(
@@ -78,7 +79,7 @@ class WriteMjcf(AssetPass):
         except FrameError as error:
             error.report(sink)
             return document
-        parts = [Opaque.unchecked(attribute=("model", holder.name))]
+        parts = [] if is_made_name(holder) else [Opaque.unchecked(attribute=("model", holder.name))]
         parts += [Opaque.unchecked(element=each) for each in _in_order(context)]
         return Document.unchecked(format=Format.MJCF, opaque=tuple(parts), source=document.source)
 
@@ -110,6 +111,7 @@ def _write_sections(context: MjcfContext) -> None:
     add_contacts(context)
     add_kept_sections(context)
     add_texts(context)
+    remove_made_names(context)
 
 
 def _in_order(context: MjcfContext) -> list[Element]:

@@ -15,14 +15,12 @@ from twinform.diagnostics import DiagnosticSink, Fate, Location, Rule, rules
 from twinform.ir import (
     Document,
     Element,
-    Format,
     Frame,
     Link,
     Model,
     Node,
     Pose,
     World,
-    census_of,
     replace_fields,
 )
 from twinform.ir.frames import WORLD, Kind
@@ -30,13 +28,16 @@ from twinform.ir.kinematic_tree import KinematicTree
 from twinform.ir.record import Sourced
 from twinform.ir.scopes import SCOPE, scoped_models
 from twinform.ir.transform import Transform
-from twinform.passes.carriers.annotations import came_from
-from twinform.passes.carriers.carriers import Keeper, bits_of_ours
+from twinform.passes.carriers.annotations import MADE_NAME, find_annotation
+from twinform.passes.carriers.carriers import Keeper
 from twinform.passes.framework.assets import NO_ASSETS, Assets
 from twinform.passes.legalise.to_mjcf.contact_plan import ContactPlan
 from twinform.passes.legalise.to_mjcf.frictions import friction_priorities
+from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements
 from twinform.passes.shared.replaced_shapes import ShapeReplacer
 
+ROOT = "mujoco"
+"""The section by which a model or world says that it was read of MJCF: `<tf:mjcf><mujoco/></tf:mjcf>`."""
 _RESERVED = {"body": frozenset({"world"})}
 """Names that MuJoCo gives itself, by kind."""
 
@@ -80,6 +81,7 @@ class MjcfContext:
             that is fixed.
         written_sites: the names of the sites of frames, by the scoped names of these.
         written_geoms: for each visual or collision, by its identity, the name of its geom.
+        unnamed: kinds and names that parts have here alone, since they have none in MJCF.
         left: nodes whose untyped elements MJCF says in part, by identity, each with what MJCF leaves of it.
         kept_readings: the readings that sensors keep, each with the prefix of the names in it.
         files: `asset` elements by what they are made of, so that equal ones are shared.
@@ -100,6 +102,7 @@ class MjcfContext:
     written_joints: dict[str, tuple[str, ...]] = field(default_factory=dict[str, tuple[str, ...]])
     written_sites: dict[str, str] = field(default_factory=dict[str, str])
     written_geoms: dict[int, str] = field(default_factory=dict[int, str])
+    unnamed: set[tuple[str, str]] = field(default_factory=set[tuple[str, str]])
     left: dict[int, tuple[Node, Node]] = field(default_factory=dict[int, tuple[Node, Node]])
     kept_readings: list[tuple[str, Element]] = field(default_factory=list[tuple[str, Element]])
     files: dict[object, str | None] = field(default_factory=dict[object, str | None])
@@ -137,13 +140,8 @@ class MjcfContext:
     @cached_property
     def is_of_mjcf(self) -> bool:
         """Whether the document was read of MJCF, so that what SDF leaves to its defaults stays as MJCF has it."""
-        source, models = self.document.source, [each for _, each in self.models]
-        if (source is not None and source.step == "mujoco") or any(came_from(each, Format.MJCF) for each in models):
-            return True
-        # What a pass added for MuJoCo stands in the model itself.
-        bits = bits_of_ours("mjcf")
-        parts = [part for each in models for part in (*each.links, *each.joints, *each.frames)]
-        return any(census_of(part) & bits for part in parts)
+        holders = (self.holder, *(each for _, each in self.models))
+        return any(each.name == ROOT for holder in holders for each in kept_elements(holder))
 
     @cached_property
     def contacts(self) -> ContactPlan:
@@ -182,6 +180,21 @@ class MjcfContext:
     def leave(self, node: Node, left: Node) -> None:
         """Note what MJCF leaves of a node, whose fields and untyped elements it says in part."""
         self.left[id(node)] = (node, left)  # the node too, which keeps its identity from being used again
+
+    def wish(self, kind: str, scope: str, part: Node, own: str) -> str:
+        """The name that a part in a scope should have in MJCF: its own, with the names of the models around it.
+
+        What was read of one file of MJCF has its own names again.
+        """
+        if not self.is_of_mjcf or own in self.names.get(kind, ()):
+            return scope + own
+        self.note_made_name(kind, part)
+        return own
+
+    def note_made_name(self, kind: str, part: Node) -> None:
+        """Note that a part has a name here alone, if it has none in MJCF and was not renamed since."""
+        if is_made_name(part):
+            self.unnamed.add((kind, getattr(part, "name", "")))
 
     def name(self, kind: str, wanted: str | None, where: Location | Sourced) -> str | None:
         """A name that no other part of this kind has: the one that is wanted, or with a number behind it.
@@ -256,6 +269,12 @@ class MjcfContext:
 
 
 _IDENTITY = Transform()
+
+
+def is_made_name(node: Node) -> bool:
+    """Whether a part has no name in the MJCF that it was read of, and was not renamed since."""
+    found = find_annotation(node, MADE_NAME)
+    return found is not None and found.text == getattr(node, "name", None)
 
 
 def scope_of(name: str) -> str:

@@ -15,6 +15,7 @@ from twinform.compiler.input.mjcf.pieces import Piece
 from twinform.diagnostics import DiagnosticSink, Fate
 from twinform.ir import Document, Element, Model, Node
 from twinform.passes.carriers.carriers import NAMESPACE
+from twinform.passes.legalise.to_mjcf.writing_context import ROOT
 from twinform.schemas import Context
 
 _CASES = sorted((Path(__file__).parents[4] / "cases/from_mjcf").glob("*.mjcf"))
@@ -38,10 +39,10 @@ def robot(content: str) -> Model:
 
 
 def kept(node: Node) -> Iterator[Element]:
-    """What a node keeps of MJCF."""
+    """What a node keeps of MJCF, beside the note that it was read of it."""
     for part in node.opaque:
         if part.element is not None and part.element.name == f"{{{NAMESPACE}}}mjcf":
-            yield from part.element.children
+            yield from (each for each in part.element.children if each.name != ROOT)
 
 
 @pytest.mark.parametrize("content", [_BODY, f'{_BODY}<light name="sun"/>', f'{_BODY}<site name="s"/>'])

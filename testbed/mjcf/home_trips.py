@@ -1,0 +1,93 @@
+"""MJCF that became SDF or URDF and then MJCF again: MuJoCo's model array by array, and the normal form.
+
+The order of elements is no part of a robot, so what came back is first put into the order of the source. An inertia
+that the source leaves to MuJoCo is written in what comes back: there it is compared in MuJoCo's arrays alone.
+"""
+
+import os
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from testbed.mjcf_models import canonical, differences, load_canonical
+from twinform.compiler.normal_form import NormalForm
+from twinform.schemas import XmlElement
+
+_COMPUTED = frozenset({
+    "bvh_aabb", "geom_sameframe", "body_sameframe", "dof_length", "meansize", "meanmass", "body_simple",
+    "dof_simplenum", "site_sameframe",
+})  # fmt: skip
+"""Arrays that MuJoCo computes of others, with single bits for whether these are exactly equal."""
+_SIZES = {"sphere": 1, "cylinder": 2, "capsule": 2}
+"""How many numbers the size of a shape has, where it has not three."""
+_OF_MASSES = frozenset({
+    "inertiafromgeom", "inertiagrouprange", "settotalmass", "boundmass", "boundinertia", "balanceinertia",
+})  # fmt: skip
+"""How MuJoCo computes masses that are written in what comes back."""
+
+
+def came_home(mujoco: Any, path: Path, model: Any, text: str) -> list[str]:
+    """Return what differs between a file, of which MuJoCo makes a model, and the text that came back of it.
+
+    Raises:
+        ValueError: MuJoCo refuses the text, or it is not canonical.
+    """
+    source, _ = canonical(path)
+    beside = path.with_name(f".back-{os.getpid()}-{path.name}")
+    try:
+        beside.write_text(text)
+        back, found = canonical(beside)
+    finally:
+        beside.unlink()
+    if source is None or back is None:
+        raise ValueError("; ".join(each.message for each in found) or "it has no canonical form")
+    put_in_order(source, back)
+    arrays = set(differences(mujoco, model, load_canonical(mujoco, path, back))) - _COMPUTED
+    return [*(f"array {each}" for each in sorted(arrays)), *_in_normal_form(source, back)]
+
+
+def _in_normal_form(source: XmlElement, back: XmlElement) -> Iterator[str]:
+    from_geoms = any(each.get("inertiafromgeom") == "true" for each in source.iter("compiler"))
+    for body, other in zip(source.iter("body"), back.iter("body"), strict=False):
+        inertial = other.find("inertial")
+        if from_geoms and (written := body.find("inertial")) is not None:
+            body.remove(written)
+        if body.find("inertial") is None and inertial is not None:
+            other.remove(inertial)
+    for tree in (source, back):
+        _spell_alike(tree)
+    for each in NormalForm.of(source).compare(NormalForm.of(back)):
+        yield f"{each.kind}: {each.message.partition(': ')[2]}"
+
+
+def _spell_alike(tree: XmlElement) -> None:
+    """Leave out what a canonical tree may say and need not."""
+    for each in tree.iter():
+        for name in [name for name, value in each.items() if name.endswith("limited") and value == "false"]:
+            del each.attrib[name]
+        if each.tag == "compiler":
+            for name in _OF_MASSES.intersection(each.keys()):
+                del each.attrib[name]
+        elif each.tag == "light" and each.attrib.pop("directional", "false") == "true":
+            each.set("type", "directional")
+        elif each.tag in {"geom", "site"} and (size := each.get("size")) is not None:
+            each.set("size", " ".join(size.split()[: _SIZES.get(each.get("type") or "sphere")]))
+
+
+def put_in_order(source: XmlElement, back: XmlElement) -> None:
+    """Put the elements of a canonical tree into the order of another one: by name, or else as like ones follow."""
+    waiting: dict[tuple[str, ...], list[XmlElement]] = {}
+    for each in back:
+        waiting.setdefault(_key(each), []).append(each)
+    pairs = [(each, found.pop(0)) for each in source if (found := waiting.get(_key(each)))]
+    left = [each for found in waiting.values() for each in found]
+    for each in list(back):
+        back.remove(each)
+    back.extend([*(each for _, each in pairs), *left])
+    for each, other in pairs:
+        put_in_order(each, other)
+
+
+def _key(element: XmlElement) -> tuple[str, ...]:
+    touches = (element.get("contype"), element.get("conaffinity")) != ("0", "0")
+    return str(element.tag), element.get("name") or "", str(touches) if element.tag == "geom" else ""

@@ -1,0 +1,34 @@
+"""Names that bodies, joints and geoms have in SDF alone, taken out of the MJCF that they were read of.
+
+SDF names each part, and MJCF need not. A name that another element of the file refers to stays.
+"""
+
+from collections.abc import Iterator
+
+from twinform.ir import Element
+from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext
+
+
+def remove_made_names(context: MjcfContext) -> None:
+    """Write parts without the names that reading has made up. All sections are complete."""
+    used = (
+        {value for each in _walk(context) for key, value in each.attributes if key != "name"} if context.unnamed else ()
+    )
+    made = {(kind, name) for kind, name in context.unnamed if name not in used}
+    if made:
+        bodies = context.sections["worldbody"]
+        bodies[:] = [_without(each, made) for each in bodies]
+
+
+def _walk(context: MjcfContext) -> Iterator[Element]:
+    for elements in context.sections.values():
+        for each in elements:
+            yield from each.walk()
+
+
+def _without(element: Element, made: set[tuple[str, str]]) -> Element:
+    children = tuple(_without(each, made) for each in element.children)
+    attributes = element.attributes
+    if (element.name, element.get("name")) in made:
+        attributes = tuple(pair for pair in attributes if pair[0] != "name")
+    return element.copy(attributes=attributes, children=children)
