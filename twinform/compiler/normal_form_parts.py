@@ -150,8 +150,8 @@ def sdf_pose(element: XmlElement) -> Transform | None:
 def _mjcf_rotation(text: str) -> Transform | None:
     """Return the rotation of a quaternion w x y z, of any length but zero; None for other texts."""
     try:
-        w, x, y, z = _numbers(text) or ()
-        return Transform.from_pose(Pose.model_validate({"quat_xyzw": (x, y, z, w)}))
+        w, *xyz = map(float, text.split())
+        return Transform.from_pose(Pose.model_validate({"quat_xyzw": (*xyz, w)}))
     except ValueError:
         return None
 

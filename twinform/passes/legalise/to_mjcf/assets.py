@@ -76,7 +76,7 @@ def _is_binary_stl(context: MjcfContext, path: Path) -> bool:
 
 
 def height_field(context: MjcfContext, shape: Heightmap, wanted: str = "") -> str | None:
-    """The name of the asset of a terrain, `wanted` or that of the file; None, with a finding, where no file is a PNG."""
+    """The name of the asset of a terrain, `wanted` or that of the file; None, with a finding, where it is no PNG."""
     uri = (shape.uri or "").strip()
     if PurePosixPath(uri).suffix.lower() != ".png":
         message = f"terrain {uri!r} is no PNG, and MuJoCo reads no other image"

@@ -122,12 +122,8 @@ class _BodyTree:
 
     def _body(self, name: str, hold: Hold, above: dict[str, Body]) -> Body:
         link = self.tree.links[name]
-        written = (
-            WORLD
-            if name == self.world
-            else self.context.name("body", self.context.wish("body", scope_of(name), link, source_name(link)), link)
-            or name
-        )
+        wish = self.context.wish("body", scope_of(name), link, source_name(link))
+        written = WORLD if name == self.world else self.context.name("body", wish, link) or name
         self.context.written_bodies[name] = written
         moves = name not in self.context.static_links and (
             not hold.joints

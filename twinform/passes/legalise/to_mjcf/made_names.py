@@ -11,13 +11,12 @@ from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext
 
 def remove_made_names(context: MjcfContext) -> None:
     """Write parts without the names that reading has made up. All sections are complete."""
-    used = (
-        {value for each in _walk(context) for key, value in each.attributes if key != "name"} if context.unnamed else ()
-    )
+    if not context.unnamed:
+        return
+    used = {value for each in _walk(context) for key, value in each.attributes if key != "name"}
     made = {(kind, name) for kind, name in context.unnamed if name not in used}
-    if made:
-        bodies = context.sections["worldbody"]
-        bodies[:] = [_without(each, made) for each in bodies]
+    bodies = context.sections["worldbody"]
+    bodies[:] = [_without(each, made) for each in bodies]
 
 
 def _walk(context: MjcfContext) -> Iterator[Element]:
