@@ -56,6 +56,14 @@ def test_what_mujoco_refuses_is_changed_where_that_is_asked_for(name: str) -> No
     compile_mjcf(twinform.convert(_CASES / "to_mjcf" / name, to="mjcf", profiles="mujoco").text)
 
 
+def test_a_thin_body_is_loaded_whose_matrix_mujoco_refuses() -> None:
+    source = _CASES / "to_mjcf/thin_inertia.urdf"
+    with pytest.raises(UnreadableError, match="positive eigenvalues"):
+        compile_urdf(source.read_bytes(), absent_is_nothing=True)
+    made = compile_mjcf(twinform.convert(source, to="mjcf").text)
+    assert sorted(made.model.body("pin").inertia) == pytest.approx([1.0723e-15, 1e-7, 1e-7], rel=1e-9)
+
+
 def test_a_mesh_is_where_mujoco_puts_that_of_the_urdf(tmp_path: Path) -> None:
     (tmp_path / "meshes").mkdir()
     (tmp_path / "meshes/part.obj").write_text(_OCTAHEDRON)

@@ -10,7 +10,8 @@ from twinform.diagnostics import Severity, rules
 from twinform.ir import Element, Inertial, Link
 from twinform.ir.defaults import MASS, MOMENT
 from twinform.ir.document import Format
-from twinform.ir.solids import Symmetric, principal_moments, tensor, turned
+from twinform.ir.solids import Symmetric, principal_axes, principal_moments, tensor, turned
+from twinform.ir.transform import Matrix3, Transform
 from twinform.passes.carriers.token_mass import MOMENTS, TOKEN_MOMENT, has_token_mass, is_chain_token
 from twinform.passes.legalise.to_mjcf.elements import Value, make_element, orientation, position
 from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements, with_kept
@@ -21,6 +22,8 @@ MOST_FOR_NOTHING = 1e-15
 # The digits that files have: what is impossible by less is an inertia whose last digits were cut off,
 # or that was turned, and MuJoCo forgives not even 1e-16.
 _CUT_OFF = 1e-9
+_LEAST_OF_MATRIX = 2e-14
+"""A little above `mjEPS`, in kg m^2: no eigenvalue of a matrix may be smaller."""
 _CLEAR = 1e-12
 """How far the moments of a turned inertia are kept from the bound, as a part of their sum."""
 
@@ -80,7 +83,8 @@ def inertial_elements(context: MjcfContext, body: Body) -> list[Element]:
     if weight.is_nothing:
         return [each for each in kept_elements(link) if each.name == "inertial"]
     at = context.resolve(link.inertial.pose if link.inertial else None, body)
-    inertia = _possible(context, link, weight.inertia)
+    inertia, axes = _in_writable_axes(_possible(context, link, weight.inertia))
+    at = at if axes is None else at.compose(axes)
     attributes: list[tuple[str, Value]] = [("pos", position(at))]
     if any(inertia[3:]):
         # MuJoCo takes no orientation beside it.
@@ -90,6 +94,20 @@ def inertial_elements(context: MjcfContext, body: Body) -> list[Element]:
         rest = [("quat", turn), ("mass", weight.mass), ("diaginertia", inertia[:3])]
     source = link.inertial.source if link.inertial else None
     return [with_kept(make_element("inertial", [*attributes, *rest], (), source), link)]
+
+
+def _in_writable_axes(inertia: Symmetric) -> tuple[Symmetric, Transform | None]:
+    """The inertia of a tiny or thin body in its principal axes, with these; any other one as it is.
+
+    MuJoCo refuses a full matrix with an eigenvalue that it takes for zero, but no principal moment of that size.
+    """
+    if not any(inertia[3:]) or not all(map(math.isfinite, inertia)):
+        return inertia, None
+    (a, b, c), (u, v, w) = principal_axes(inertia)
+    if not 0.0 < min(a, b, c) < _LEAST_OF_MATRIX:
+        return inertia, None
+    axes: Matrix3 = (u[0], v[0], w[0], u[1], v[1], w[1], u[2], v[2], w[2])
+    return (a, b, c, 0.0, 0.0, 0.0), Transform(rotation=axes)
 
 
 def _possible(context: MjcfContext, link: Link, inertia: Symmetric) -> Symmetric:
