@@ -97,6 +97,13 @@ class RequestOptions(TypedDict, total=False):
             setting=True,
         ),
     ]
+    keep_paths: Annotated[
+        bool,
+        Option(
+            help="Leave relative paths as they are in the source, for a result that will lie beside it; else they lead "
+            "from the folder of the result."
+        ),
+    ]
     side_files: bool
     mesh_folder: str
     comments: Annotated[bool, Option(help="Whether comments of the source go along.")]
@@ -117,6 +124,7 @@ class Requested:
     carriers: bool = True
     shape_error: float | None = None
     mesh_prefix: str | None = None
+    keep_paths: bool = False
     side_files: bool = True
     mesh_folder: str = "meshes"
     """Where meshes of shapes go that MJCF lacks; packages have their own folders."""

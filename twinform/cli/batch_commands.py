@@ -20,7 +20,7 @@ from twinform.cli.project_options import (
     consumers_option,
     keep_physics_option,
     pipeline_option,
-    request_options,
+    request_options_of_many,
     whole_request,
 )
 from twinform.cli.rule_options import policy_of, policy_options
@@ -170,7 +170,7 @@ commands = click.Group("batch")
 @click.option("--to", "target", type=click.Choice(["sdf", "urdf", "mjcf"]), required=True, help="The format.")
 @consumers_option
 @keep_physics_option
-@request_options
+@request_options_of_many
 @click.option(
     "--split", is_flag=True, help="Write each world into a folder: its models, and an SDF that includes them."
 )

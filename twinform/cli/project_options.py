@@ -229,6 +229,8 @@ _PIPELINE = {"callback": pipeline_option("passes"), "shell_complete": pipelines}
 
 request_options = group("request", dict, *flags_of(RequestOptions, passes=_PIPELINE))
 """Gives a command the options of what a file becomes."""
+request_options_of_many = group("request", dict, *flags_of(RequestOptions, without=["keep_paths"], passes=_PIPELINE))
+"""Gives a command the same options for many files, whose results are a copy of their folder, with paths as they are."""
 request_options_of_versions = combine_options(
     click.option(
         "--sdf-version",
@@ -239,7 +241,7 @@ request_options_of_versions = combine_options(
         shell_complete=sdf_versions,
         help="A version of SDF to write; repeatable.",
     ),
-    group("request", dict, *flags_of(RequestOptions, without=["sdf_version"], passes=_PIPELINE)),
+    group("request", dict, *flags_of(RequestOptions, without=["sdf_version", "keep_paths"], passes=_PIPELINE)),
 )
 """Gives a command the same options, but for several versions of SDF."""
 

@@ -156,11 +156,12 @@ class Options:
 
     def request_for(self, job: ConversionJob) -> ConversionRequest:
         """Return the request for one input."""
+        path = None if job.path is None or is_stream(job.path) else job.path
         return replace(
-            self.request,
+            self.request if path is None else self.request.beside(path),
             to=job.target,
             sdf_version=self.request.sdf_version if job.target == "sdf" else None,
-            side_files=job.path is not None and not is_stream(job.path),
+            side_files=path is not None,
         )
 
     def for_file(self, own: ResolvedOptions) -> "Options":

@@ -52,7 +52,7 @@ function(twinform_convert model)
   add_custom_command(
     OUTPUT "${output}"
     COMMAND "${TWINFORM_EXECUTABLE}" convert "${input}" -o "${output}" --to "${arg_TO}" --depfile "${output}.d"
-      ${arg_OPTIONS}
+      --keep-paths ${arg_OPTIONS}
     DEPENDS "${input}" "${TWINFORM_EXECUTABLE}"
     DEPFILE "${output}.d"
     COMMENT "Converting ${model} to ${arg_TO}"

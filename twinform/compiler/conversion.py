@@ -182,6 +182,11 @@ def _convert_document(
         from twinform.compiler.input.mjcf.without_remainders import without_remainders  # noqa: PLC0415 - few ask for it
 
         document = without_remainders(document, sink)
+    if request.folder is not None and isinstance(request.assets, LocalAssets) and request.assets.folder is not None:
+        from twinform.compiler.moved_paths import moved  # noqa: PLC0415 - most results lie beside their source
+
+        document, there = moved(document, request.assets, request.folder, sink)
+        request = replace(request, assets=there)
     passes = _user_passes(request, load_options, loaded.path)
     # The document is verified between the user's passes. Legalisation leaves it half in one format
     # and half in the other, so there the check comes at the end.

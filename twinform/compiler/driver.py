@@ -69,6 +69,8 @@ def convert(
         shape_error: How far a mesh that stands for a shape which the target lacks may be from it, in m; else 1 % of its
             largest radius.
         mesh_prefix: What the URIs of such meshes begin with, such as package://arm; else they are relative paths.
+        keep_paths: Leave relative paths as they are in the source, for a result that will lie beside it; else they lead
+            from the folder of the result.
         side_files: Whether meshes may be made that have to lie beside the result, such as that of an ellipsoid.
         comments: Whether comments of the source go along.
         model: The model that is meant, where a file has several.

@@ -26,13 +26,10 @@ class MovedAssets:
     """The files that a document with rewritten paths names: they are found by their old and new paths."""
 
     source: LocalAssets
+    folder: Path | None
+    """The folder from which the new paths lead."""
     before: dict[str, str] = field(default_factory=dict[str, str])
     """The path in the source for each new path."""
-
-    @property
-    def folder(self) -> Path | None:
-        """The folder of the source."""
-        return self.source.folder
 
     @property
     def readable(self) -> Readable:
@@ -61,8 +58,8 @@ def moved(document: Document, source: LocalAssets, folder: Path, sink: Diagnosti
 
     A path that leads to no file stays as it is, with a warning.
     """
-    assets = MovedAssets(source)
     here, there = source.beside.parent.resolve(), folder.resolve()
+    assets = MovedAssets(source, there)
     if here == there:
         return document, assets
 

@@ -1,7 +1,8 @@
 """The request of a conversion: target format, version, passes and options."""
 
 from collections.abc import Iterable
-from dataclasses import field, fields
+from dataclasses import field, fields, replace
+from pathlib import Path
 from typing import Any, get_args
 
 from twinform.dataclass import dataclass
@@ -23,7 +24,8 @@ class ConversionRequest(Requested):
     `mixed` means that the source has elements that its version does not have, and `comments` that the comments of the
     source are kept. `remedies` are the passes that consumers need, and `remedied` the rules of errors that they fix;
     with `keep_physics` none of them may change the physics. `newest_urdf` is the newest version of URDF that all
-    consumers read, and None where none of them minds.
+    consumers read, and None where none of them minds. `folder` is where the result will lie, from which its relative
+    paths lead; without it they stay as they are in the source.
     """
 
     to: Language
@@ -32,6 +34,7 @@ class ConversionRequest(Requested):
     remedies: Pipeline = field(default_factory=Pipeline)
     remedied: frozenset[str] = frozenset()
     newest_urdf: UrdfVersion | None = None
+    folder: Path | None = None
     assets: Assets = field(default=NO_ASSETS, compare=False, repr=False)
 
     @classmethod
@@ -49,6 +52,10 @@ class ConversionRequest(Requested):
         wanted: dict[str, Any] = {name: options.get(name) for name in _OPTIONS}
         given = {name: value for name, value in wanted.items() if value is not None}
         return cls(to=to, passes=_pipeline(options.get("passes")), **given)
+
+    def beside(self, result: Path) -> "ConversionRequest":
+        """Return the request for a result with this path."""
+        return self if self.keep_paths else replace(self, folder=result.parent)
 
     @property
     def requested(self) -> Requested:

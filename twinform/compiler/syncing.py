@@ -89,6 +89,7 @@ def sync_file(
         CompileError: one of the files has an error, or the smallest change cannot be made.
         AnotherRobotError: the file has no link of the source.
     """
+    request = request.beside(target)
     if not target.exists():
         made = run_conversion(request, str(source), load_options, name=str(source))
         return SyncedFile(
