@@ -84,7 +84,7 @@ def differences(mujoco: Any, one: Any, other: Any) -> list[str]:
     """Return the fields in which two models of MuJoCo differ by more than 1e-9."""
     import numpy as np  # noqa: PLC0415 - it comes with MuJoCo, which is not everywhere
 
-    found = [name for name, a, b in _arrays(one, other) if not _are_equal(np, a, b)]
+    found = [name for name, a, b in _arrays(one, other) if not (_are_equal(np, a, b) or _are_turns(np, name, a, b))]
     if _OF_INERTIA.intersection(found) and _are_equal(np, _inertias(mujoco, np, one), _inertias(mujoco, np, other)):
         # the principal axes of one matrix, in another order or sign
         found = [name for name in found if name not in _OF_INERTIA]
@@ -115,6 +115,13 @@ def _are_equal(np: Any, a: Any, b: Any) -> bool:
     if a.dtype.kind != "f":
         return bool((a == b).all())
     return bool(np.allclose(a, b, rtol=_TOLERANCE, atol=_TOLERANCE, equal_nan=True))
+
+
+def _are_turns(np: Any, name: str, a: Any, b: Any) -> bool:
+    """Tell whether two arrays have the same rotations: a quaternion and its opposite are one."""
+    if not name.endswith("quat") or a.shape != b.shape:
+        return False
+    return bool(np.allclose(np.abs((a * b).sum(axis=-1)), 1.0, rtol=0, atol=_TOLERANCE))
 
 
 def _controls(np: Any, model: Any) -> Any:

@@ -9,5 +9,6 @@ SECTIONS = {
     "versions": "Versions of SDF",
     "older_urdf": "Versions of URDF",
     "mjcf": "MJCF",
+    "mjcf_packages": "MJCF of published packages",
 }
 """The sections of the page by the names of their modules, each with its title, in the order of the page."""

@@ -20,6 +20,7 @@ from testbed.mjcf.from_drake import LOOSE, quaternion_of
 from twinform.ir import Document, Joint, Link, Model
 from twinform.passes.carriers.annotations import MADE_NAME, find_annotation, is_synthesized
 from twinform.passes.carriers.carriers import NAMESPACE
+from twinform.testing.oracles.robot import inverse
 
 _POSITIONS = 4
 _UNSEEN = ("visual", "collision", "sensor", "light", "physics", "wind", "magnetic_field", "mimic", "gazebo")
@@ -87,13 +88,6 @@ def of_joints(source: Compiled, trees: Iterable[Tree]) -> Iterator[str]:
         wanted = model.jnt_range[number] - drawn if model.jnt_limited[number] else [-math.inf, math.inf]
         if not np.allclose(here, wanted, rtol=TOLERANCE, atol=TOLERANCE):
             yield f"joint {joint.name} moves from {here[0]} to {here[1]}, and in MuJoCo from {wanted[0]} to {wanted[1]}"
-
-
-def without_what_only_mjcf_has(source: Compiled) -> Compiled:
-    """Take out what adds to the mass matrix and has no counterpart: inertia of rotors and of tendons."""
-    for name in ("dof_armature", "tendon_armature"):
-        getattr(source.model, name)[:] = 0.0
-    return source
 
 
 def bare(text: str, loops: Collection[str] = ()) -> bytes:
@@ -270,12 +264,11 @@ class InDrake:
 
 def _mass_in_drake(body: Any, offset: Array) -> Array:
     """The mass with three zeros, the center in m, and the inertia about it, in the frame of the link at an offset."""
-    inertia = body.default_spatial_inertia()
+    inertia: Any = body.default_spatial_inertia()
     mass, center = inertia.get_mass(), inertia.get_com()
     about = inertia.Shift(center).CalcRotationalInertia().CopyToFullMatrix3()
-    back: Array = np.linalg.inv(offset)
-    turn = back[:3, :3]
-    return _rows(mass, turn @ center + back[:3, 3], turn @ about @ turn.T)
+    back: Array = inverse(offset)
+    return _rows(mass, back[:3, :3] @ center + back[:3, 3], back[:3, :3] @ about @ back[:3, :3].T)
 
 
 def _mass_in_mujoco(data: Any, model: Any, number: int) -> Array:

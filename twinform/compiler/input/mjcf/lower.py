@@ -31,7 +31,7 @@ from twinform.ir import Document, Element, Format, Frame, Light, Link, Model, Op
 from twinform.passes.carriers.annotations import MADE_NAME, WORLDBODY, annotation, with_annotation
 from twinform.passes.carriers.carriers import NAMESPACE, PREFIX
 from twinform.passes.legalise.changed_names import NAME
-from twinform.passes.legalise.to_mjcf.writing_context import ROOT
+from twinform.passes.legalise.to_mjcf.kept_mjcf import ROOT
 from twinform.passes.shared.mesh_solids import Meshes
 from twinform.passes.shared.nodes import reserve_name
 from twinform.schemas import DEFAULT_SDF_VERSION, Context, XmlElement

@@ -34,7 +34,10 @@ def lower_shape(geom: Piece, assets: AssetTable) -> PlacedShape | None:
         if all(size) and size[-1:] == (GRID,):  # such a plane is written as it was
             geom.take("size")
     elif kind in _PRIMITIVES and geom.has("size") and not geom.has("mesh"):
-        found = PlacedShape(_PRIMITIVES[kind](geom.numbers("size")))
+        size = geom.numbers("size")
+        found = PlacedShape(_PRIMITIVES[kind](size))
+        if any(size[_COUNTS[kind] :]):  # numbers that mean nothing stay with the geom
+            geom.leave("size")
     else:
         found = None
     if found is not None:
@@ -59,6 +62,8 @@ _PRIMITIVES: Mapping[str, Callable[[Numbers], Shape]] = {
     "capsule": lambda size: Capsule.unchecked(radius=size[0], length=2 * size[1]),
     "ellipsoid": _ellipsoid,
 }
+_COUNTS: Mapping[str, int] = {"box": 3, "sphere": 1, "cylinder": 2, "capsule": 2, "ellipsoid": 3}
+"""How many numbers say the size of a shape."""
 
 
 def _plane(size: Numbers) -> Plane:

@@ -141,6 +141,7 @@ def _solid(context: MjcfContext, body: Body, shape: Shape, part: Visual | Collis
             return None if name is None else Solid([("type", "hfield"), ("hfield", name)], Transform.from_pose(at))
         case Box() | Sphere() | Ellipsoid() | Cylinder() | Capsule():
             size = _size(shape)
+            size += tuple(map(float, _kept(part, "size").split()))[len(size) :]  # more than MuJoCo needs
             if min(size) <= 0.0:
                 return "has a size of 0, which MuJoCo refuses"
             return Solid([("type", shape.kind), ("size", size)])

@@ -7,6 +7,7 @@ from twinform.ir import Joint, Model
 from twinform.ir.frames import WORLD
 from twinform.passes.carriers.annotations import annotate_synthesized
 from twinform.passes.framework.pass_base import ModelPass
+from twinform.passes.legalise.to_mjcf.kept_mjcf import ROOT, kept_elements
 from twinform.passes.shared.nodes import unique_name
 
 
@@ -14,7 +15,8 @@ class HoldRoot(ModelPass):
     """Fix the root of a robot of URDF to the world, where MuJoCo's reader of URDF and RViz have it.
 
     Changes: the link that is no joint's child hangs from the world by a fixed joint, which is annotated as made.
-    Never touches: a robot whose root is a link called `world`; links that floating joints leave free.
+    Never touches: a robot whose root is a link called `world`; links that floating joints leave free; what was read of
+    MJCF, where a root floats unless it hangs from the world.
     Diagnostics: none.
     """
 
@@ -25,7 +27,8 @@ class HoldRoot(ModelPass):
         del sink
         children = {joint.child for joint in model.joints}
         root = next((link for link in model.links if link.name not in children), None)
-        if root is None or any(joint.parent == WORLD for joint in model.joints):
+        is_of_mjcf = any(each.name == ROOT for each in kept_elements(model))
+        if root is None or is_of_mjcf or any(joint.parent == WORLD for joint in model.joints):
             return model
         taken = {node.name for node in (*model.links, *model.joints, *model.frames)}
         name = unique_name(f"{root.name}_on_world", taken)

@@ -117,7 +117,8 @@ def _element(
     joint = between.joint
     kind = kind or _KINDS[joint.type]
     attributes: list[tuple[str, Value]] = [("name", name), ("type", kind)]
-    if any(at.translation) and kind != "slide":  # where it slides along does not matter
+    # Where a slide is does not matter, but for what MJCF has said.
+    if any(at.translation) and (kind != "slide" or context.is_of_mjcf):
         attributes.append(("pos", position(at)))
     if kind != "ball":
         attributes.append(("axis", _direction(context, body, between, at, axis)))

@@ -10,6 +10,8 @@ from twinform.ir import Element, Node
 from twinform.passes.carriers.carriers import NAMESPACE
 
 KEPT = f"{{{NAMESPACE}}}mjcf"
+ROOT = "mujoco"
+"""The section by which a model or world says that it was read of MJCF: `<tf:mjcf><mujoco/></tf:mjcf>`."""
 
 
 def kept_elements(node: Node) -> Sequence[Element]:

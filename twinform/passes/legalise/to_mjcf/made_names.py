@@ -8,12 +8,15 @@ from collections.abc import Iterator
 from twinform.ir import Element
 from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext
 
+_OTHERS = frozenset({"name", "mesh", "hfield", "material", "texture", "file", "type"})
+"""Attributes with other names than those of bodies, joints, geoms, cameras and lights."""
+
 
 def remove_made_names(context: MjcfContext) -> None:
     """Write parts without the names that reading has made up. All sections are complete."""
     if not context.unnamed:
         return
-    used = {value for each in _walk(context) for key, value in each.attributes if key != "name"}
+    used = {value for each in _walk(context) for key, value in each.attributes if key not in _OTHERS}
     made = {(kind, name) for kind, name in context.unnamed if name not in used}
     bodies = context.sections["worldbody"]
     bodies[:] = [_without(each, made) for each in bodies]

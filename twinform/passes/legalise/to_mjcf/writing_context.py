@@ -33,11 +33,9 @@ from twinform.passes.carriers.carriers import Keeper
 from twinform.passes.framework.assets import NO_ASSETS, Assets
 from twinform.passes.legalise.to_mjcf.contact_plan import ContactPlan
 from twinform.passes.legalise.to_mjcf.frictions import friction_priorities
-from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements
+from twinform.passes.legalise.to_mjcf.kept_mjcf import ROOT, kept_elements
 from twinform.passes.shared.replaced_shapes import ShapeReplacer
 
-ROOT = "mujoco"
-"""The section by which a model or world says that it was read of MJCF: `<tf:mjcf><mujoco/></tf:mjcf>`."""
 _RESERVED = {"body": frozenset({"world"})}
 """Names that MuJoCo gives itself, by kind."""
 

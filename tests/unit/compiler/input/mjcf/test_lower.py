@@ -15,7 +15,7 @@ from twinform.compiler.input.mjcf.pieces import Piece
 from twinform.diagnostics import DiagnosticSink, Fate
 from twinform.ir import Document, Element, Model, Node
 from twinform.passes.carriers.carriers import NAMESPACE
-from twinform.passes.legalise.to_mjcf.writing_context import ROOT
+from twinform.passes.legalise.to_mjcf.kept_mjcf import ROOT
 from twinform.schemas import Context
 
 _CASES = sorted((Path(__file__).parents[4] / "cases/from_mjcf").glob("*.mjcf"))

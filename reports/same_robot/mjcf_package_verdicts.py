@@ -1,0 +1,164 @@
+"""What others make of a file of MJCF once it is SDF or URDF, and of what comes home; runs in a worker process."""
+
+import importlib
+import os
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from enum import StrEnum
+from pathlib import Path
+from typing import Any
+
+from lxml import etree
+
+import twinform
+from testbed.mjcf.compiled import Compiled
+from testbed.mjcf.home_trips import came_home
+from testbed.mjcf.of_mjcf import InDrake, Tree, bare, loops_of, of_joints, offset_of, trees_of
+from testbed.mjcf_models import PACKAGES, load
+from twinform.compiler.conversion import Conversion
+from twinform.compiler.request import Language
+
+_MOST = 3
+"""So many differences are told of one file."""
+_ROBOTS = 8
+"""So many robots of a world become a URDF each."""
+
+
+class Question(StrEnum):
+    """What is asked about a file."""
+
+    READ = "read"
+    TREE = "same tree"
+    SDF = "SDF in Drake"
+    URDF = "URDF in Drake"
+    SDF_HOME = "home from SDF"
+    URDF_HOME = "home from URDF"
+
+
+@dataclass(frozen=True, slots=True)
+class PackageFile:
+    """A file of a package, by its path below the folder of all packages."""
+
+    path: Path
+
+    @property
+    def name(self) -> str:
+        """The path below the folder of the packages."""
+        return self.path.relative_to(PACKAGES).as_posix()
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """The answer to a question about a file: what differs, or is refused; nothing where all is the same."""
+
+    name: str
+    question: Question
+    cause: str = ""
+
+    @property
+    def package(self) -> str:
+        """The package of the file."""
+        return self.name.partition("/")[0]
+
+    def __str__(self) -> str:
+        return f"{self.name}: {self.question}: {self.cause}"
+
+
+def judge(file: PackageFile) -> list[Answer]:
+    """All answers about a file; none where MuJoCo refuses it."""
+    mujoco: Any = importlib.import_module("mujoco")
+    model = load(mujoco, file.path)
+    if model is None:
+        return []
+    found = _Judge(mujoco, model, file.path)
+    return [Answer(file.name, question, _cause(ask)) for question, ask in found.questions()]
+
+
+def _cause(ask: Callable[[], Iterable[str]]) -> str:
+    """The first differences, or why there is no answer."""
+    try:
+        found = list(ask())
+    except twinform.CompileError as error:
+        first = next((each for each in error.diagnostics if each.is_error), error.diagnostics[0])
+        return f"{first.rule.name}: {first.message}"
+    except Exception as error:  # noqa: BLE001 - Drake has no narrower type
+        return f"{type(error).__name__}: {str(error).strip().partition(chr(10))[0]}"
+    return "; ".join(found[:_MOST] + ([f"and {len(found) - _MOST} more"] if len(found) > _MOST else []))
+
+
+class _Judge:
+    """Asks about one file."""
+
+    def __init__(self, mujoco: Any, model: Any, path: Path) -> None:
+        self.mujoco, self.model, self.path = mujoco, model, path
+        self.compiled = _without_what_only_mjcf_has(mujoco, path)
+
+    def questions(self) -> Iterable[tuple[Question, Callable[[], Iterable[str]]]]:
+        """Yield what can be asked: what is not read is not converted."""
+        try:
+            made = self._convert(self.path, "sdf")
+        except twinform.CompileError as error:
+            raised = error
+
+            def refused() -> Iterable[str]:
+                raise raised
+
+            yield Question.READ, refused
+            return
+        yield Question.READ, lambda: ()
+        yield Question.TREE, self._tree
+        yield Question.SDF, lambda: self._in_drake(made)
+        yield Question.SDF_HOME, lambda: self._home(made.text, ".sdf")
+        trees = trees_of(self.compiled, made.document)
+        if isinstance(trees, str):
+            return
+        is_model = bool(made.document.models)
+        yield Question.URDF, lambda: self._urdfs(trees[:_ROBOTS], is_model=is_model)
+        if is_model:  # of a world, URDF holds the robot alone
+            yield Question.URDF_HOME, lambda: self._home(self._convert(self.path, "urdf").text, ".urdf")
+
+    def _convert(self, path: Path, to: Language, model: str | None = None) -> Conversion:
+        return twinform.convert(path, to=to, model=model, paths=[PACKAGES])
+
+    def _tree(self) -> Iterable[str]:
+        one, other = (_plain(text) for text in (self.path.read_bytes(), self._convert(self.path, "mjcf").text.encode()))
+        return [] if one == other else ["the tree is another one"]
+
+    def _in_drake(self, made: Conversion) -> Iterable[str]:
+        trees = trees_of(self.compiled, made.document)
+        if isinstance(trees, str):
+            return [trees]
+        there = InDrake(self.compiled, bare(made.text, loops_of(trees)), trees, {})
+        return [*of_joints(self.compiled, trees), *there.differences()]
+
+    def _urdfs(self, trees: list[Tree], *, is_model: bool) -> Iterable[str]:
+        for tree in trees:
+            yield from self._urdf(tree, None if is_model else tree.model.name)
+
+    def _urdf(self, tree: Tree, name: str | None) -> list[str]:
+        made = self._convert(self.path, "urdf", name)
+        offsets = {each.name: offset_of(each) for each in made.document.models[0].links}
+        return InDrake(self.compiled, bare(made.text, loops_of([tree])), [tree], offsets).differences()
+
+    def _home(self, text: str, suffix: str) -> Iterable[str]:
+        beside = self.path.with_name(f".there-{os.getpid()}-{self.path.stem}{suffix}")
+        try:
+            beside.write_text(text)
+            home = self._convert(beside, "mjcf").text
+        finally:
+            beside.unlink()
+        return came_home(self.mujoco, self.path, self.model, home)
+
+
+def _without_what_only_mjcf_has(mujoco: Any, path: Path) -> Compiled:
+    """The model without what moves it and has no counterpart: inertia of rotors and of tendons, and no gravity."""
+    model = load(mujoco, path)
+    for name in ("dof_armature", "tendon_armature"):
+        getattr(model, name)[:] = 0.0
+    model.opt.disableflags &= ~int(mujoco.mjtDisableBit.mjDSBL_GRAVITY)
+    return Compiled(mujoco, model)
+
+
+def _plain(text: bytes) -> bytes:
+    parser = etree.XMLParser(remove_blank_text=True, remove_comments=True, remove_pis=True)
+    return etree.tostring(etree.fromstring(text, parser), method="c14n")
