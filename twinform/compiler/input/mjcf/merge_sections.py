@@ -1,9 +1,8 @@
 """Merges the sections of MJCF that a file writes more than once, as included files do."""
 
+from twinform.passes.legalise.to_mjcf.kept_mjcf import SINGLE
 from twinform.schemas import XmlElement
 
-_PLAIN = frozenset({"compiler", "option", "size", "statistic", "visual"})
-"""Sections of single values, of which the last one counts."""
 _LISTS = frozenset({
     "extension", "custom", "asset", "worldbody", "contact", "deformable", "equality", "tendon", "actuator", "sensor",
     "keyframe",
@@ -14,12 +13,12 @@ _LISTS = frozenset({
 def merge_sections(root: XmlElement) -> None:
     """Leave one section of each name, where the first one stands, with all that the others have."""
     first: dict[str, XmlElement] = {}
-    for section in list(root.iterchildren(*_PLAIN, *_LISTS)):  # MuJoCo skips others
+    for section in list(root.iterchildren(*SINGLE, *_LISTS)):  # MuJoCo skips others
         tag = str(section.tag)
         whole = first.setdefault(tag, section)
         if whole is section:
             continue
-        if tag in _PLAIN:
+        if tag in SINGLE:
             _merge_values(whole, section)
         else:
             for name, value in section.items():
@@ -27,7 +26,7 @@ def merge_sections(root: XmlElement) -> None:
                     whole.set(name, value)
             whole.extend(list(section))
         root.remove(section)
-    for tag in _PLAIN:
+    for tag in SINGLE:
         if tag in first:
             _merge_repeated_children(first[tag])
 

@@ -6,6 +6,8 @@ both end in the same digits and in the same one of the two quaternions that a ro
 
 import math
 
+from twinform.ir.transform import cross, minus
+
 Vector = tuple[float, float, float]
 Quaternion = tuple[float, float, float, float]
 
@@ -88,8 +90,8 @@ def from_axes(x_axis: Vector, y_axis: Vector) -> Quaternion:
     """
     x = _direction(x_axis, "the first axis of xyaxes")
     along = sum(a * b for a, b in zip(x, y_axis, strict=True))
-    y = _direction(_minus(y_axis, (along * x[0], along * x[1], along * x[2])), "the second axis of xyaxes")
-    z = _cross(x, y)
+    y = _direction(minus(y_axis, (along * x[0], along * x[1], along * x[2])), "the second axis of xyaxes")
+    z = cross(x, y)
     return _from_columns(x, y, z)
 
 
@@ -100,7 +102,7 @@ def from_z_axis(z_axis: Vector) -> Quaternion:
         UnturnableError: the direction has no length.
     """
     direction = _direction(z_axis, "zaxis")
-    axis = _cross(_AXES["z"], direction)
+    axis = cross(_AXES["z"], direction)
     sine = math.hypot(*axis)
     x, y, z = (axis[0] / sine, axis[1] / sine, axis[2] / sine) if sine >= _PARALLEL else _AXES["x"]
     half = math.atan2(sine, direction[2]) / 2
@@ -125,11 +127,3 @@ def _direction(vector: Vector, what: str) -> Vector:
     if length < TINY:
         raise UnturnableError(f"{what} is too short to be a direction")
     return (vector[0] / length, vector[1] / length, vector[2] / length)
-
-
-def _minus(a: Vector, b: Vector) -> Vector:
-    return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
-
-
-def _cross(a: Vector, b: Vector) -> Vector:
-    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])

@@ -49,8 +49,6 @@ _OF_ATTRIBUTE = {
 _OF_OBJECT = {"objname": "objtype", "refname": "reftype"}
 """The attributes whose kind another attribute says."""
 _OBJECTS = {"xbody": "body", "key": "key"}
-_SECONDARY = frozenset({"reftype", "refname", "refsite", "cranksite", "slidersite", "sidesite", "material", "mesh"})
-"""References without which an element would still be what it is."""
 
 
 class Reference(NamedTuple):
@@ -60,11 +58,6 @@ class Reference(NamedTuple):
     attribute: str
     kind: str
     name: str
-
-    @property
-    def is_secondary(self) -> bool:
-        """Whether the element is about something else."""
-        return self.attribute in _SECONDARY
 
 
 def kind_of(element: XmlElement, section: str) -> str | None:

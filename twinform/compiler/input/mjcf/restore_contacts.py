@@ -13,8 +13,7 @@ from twinform.ir.kinematic_tree import KinematicTree
 from twinform.ir.scopes import scoped_models
 from twinform.passes.carriers.annotations import annotation, find_annotation, without_annotation
 from twinform.passes.carriers.carriers import NAMESPACE
-from twinform.passes.legalise.to_mjcf.contact_plan import ContactPlan
-from twinform.passes.legalise.to_mjcf.frictions import coefficient, friction_priorities
+from twinform.passes.legalise.to_mjcf.contact_plan import ContactPlan, coefficient, friction_priorities
 from twinform.passes.legalise.to_mjcf.kept_mjcf import KEPT
 from twinform.schemas import XmlElement
 

@@ -4,12 +4,11 @@ from collections.abc import Collection, Mapping
 from typing import TypeVar
 
 from twinform.ir import Element, Model, Node, Opaque, replace_fields, rewrite
-from twinform.passes.carriers.carriers import NAMESPACE, bits_of_ours
+from twinform.passes.carriers.carriers import bits_of_ours
+from twinform.passes.legalise.to_mjcf.kept_mjcf import KEPT
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 
-_KEPT = "mjcf"
-_NAME = f"{{{NAMESPACE}}}{_KEPT}"
 # The groups of visuals and collisions, and what keeps MuJoCo from giving them a mass.
 # Assets are named after files, a plane has a grid, and the reference of a spring without stiffness means nothing.
 _USUAL: Mapping[str, Mapping[str, frozenset[str] | None]] = {
@@ -26,7 +25,7 @@ _USUAL: Mapping[str, Mapping[str, frozenset[str] | None]] = {
 
 def without_usual(node: AnyNode) -> AnyNode:
     """The node, and all in it, without remainders that only hold what is written for every robot."""
-    return rewrite(node, Node, _without_usual, having=bits_of_ours(_KEPT))
+    return rewrite(node, Node, _without_usual, having=bits_of_ours("mjcf"))
 
 
 def without_assets(model: Model, names: Collection[tuple[str, str]]) -> Model:
@@ -60,7 +59,7 @@ def _without_usual(node: Node) -> Node:
 
 
 def _is_kept(part: Opaque) -> bool:
-    return part.element is not None and part.element.name == _NAME
+    return part.element is not None and part.element.name == KEPT
 
 
 def _left_of(part: Opaque) -> Opaque | None:

@@ -3,9 +3,8 @@
 from collections.abc import Iterator
 
 from twinform.ir import Collision
-from twinform.passes.legalise.to_mjcf.contact_plan import USUAL, kept_bits
+from twinform.passes.legalise.to_mjcf.contact_plan import USUAL, coefficient, kept_bits
 from twinform.passes.legalise.to_mjcf.elements import Value, make_element
-from twinform.passes.legalise.to_mjcf.frictions import coefficient
 from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements
 from twinform.passes.legalise.to_mjcf.writing_context import Body, MjcfContext
 

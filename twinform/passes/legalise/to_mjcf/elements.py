@@ -33,13 +33,6 @@ def attribute_text(value: str | float | bool | tuple[float, ...]) -> str:
     return format_numbers(value) if isinstance(value, tuple) else format_value(value)
 
 
-def with_attributes(element: Element, attributes: Attributes) -> Element:
-    """Return the element with more attributes behind its own; those that it has stay as they are."""
-    known = {key for key, _ in element.attributes}
-    more = [(key, attribute_text(value)) for key, value in attributes if value is not None and key not in known]
-    return element.copy(attributes=(*element.attributes, *more)) if more else element
-
-
 def placement(transform: Transform) -> list[tuple[str, Value]]:
     """`pos` and `quat` of a transform; what is zero or no rotation is left out."""
     found: list[tuple[str, Value]] = []

@@ -14,6 +14,10 @@ ROOT = "mujoco"
 """The section by which a model or world says that it was read of MJCF: `<tf:mjcf><mujoco/></tf:mjcf>`."""
 
 
+SINGLE = frozenset({"compiler", "option", "size", "visual", "statistic"})
+"""Sections that are one element with attributes: what is added to them is merged."""
+
+
 def kept_elements(node: Node) -> Sequence[Element]:
     """The elements of MJCF that a node keeps."""
     kept = [each.element for each in node.opaque if each.element is not None and each.element.name == KEPT]
@@ -26,9 +30,12 @@ def with_kept(element: Element, node: Node) -> Element:
         return element
     for kept in kept_elements(node):
         if kept.name == element.name:
-            known = {key for key, _ in element.attributes}
-            more = tuple(each for each in kept.attributes if each[0] not in known)
-            element = element.copy(
-                attributes=(*element.attributes, *more), children=(*element.children, *kept.children)
-            )
+            element = merged(element, kept)
     return element
+
+
+def merged(element: Element, kept: Element) -> Element:
+    """Return an element with the attributes that it lacks and the children of one that was kept."""
+    known = {key for key, _ in element.attributes}
+    more = tuple(each for each in kept.attributes if each[0] not in known)
+    return element.copy(attributes=(*element.attributes, *more), children=(*element.children, *kept.children))

@@ -8,11 +8,9 @@ from collections.abc import Mapping
 
 from twinform.ir import Element
 from twinform.ir.scopes import SCOPE
-from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements
+from twinform.passes.legalise.to_mjcf.kept_mjcf import SINGLE, kept_elements, merged
 from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext
 
-SINGLE = frozenset({"compiler", "option", "size", "visual", "statistic"})
-"""Sections that are one element with attributes: what is added to them is merged."""
 _ONES: Mapping[str, str] = {
     **dict.fromkeys(("joint", "joint1", "joint2", "jointinparent"), "joint"),
     **dict.fromkeys(("body", "body1", "body2", "subtree1", "subtree2", "target"), "body"),
@@ -78,17 +76,10 @@ class _Sections:
         there, key = self._sections[section], (section, element.name, element.get("name"))
         if key[-1] and key in self._places:
             place = self._places[key]
-            there[place] = _merged(there[place], element)
+            there[place] = merged(there[place], element)
             return
         self._places[key] = len(there)
         there.append(element)
-
-
-def _merged(element: Element, kept: Element) -> Element:
-    """An element with the attributes that it lacks and the children of one that was kept."""
-    known = {key for key, _ in element.attributes}
-    more = tuple(each for each in kept.attributes if each[0] not in known)
-    return element.copy(attributes=(*element.attributes, *more), children=(*element.children, *kept.children))
 
 
 def _renamed(element: Element, names: _Names, scope: str) -> Element:

@@ -9,13 +9,11 @@ from twinform.ir import Element, Sensor
 from twinform.ir.kinematic_tree import JointBetween
 from twinform.ir.transform import Transform
 from twinform.passes.legalise.to_mjcf.cameras import camera_element
-from twinform.passes.legalise.to_mjcf.imu_sensors import imu_parts
 from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements
 from twinform.passes.legalise.to_mjcf.rangefinders import MOST_RAYS, rangefinder_parts
 from twinform.passes.legalise.to_mjcf.said_parts import untyped
 from twinform.passes.legalise.to_mjcf.sensor_parts import SensorParts, reading
-from twinform.passes.legalise.to_mjcf.sites import sensor_site
-from twinform.passes.legalise.to_mjcf.wrench_sensors import wrench_parts
+from twinform.passes.legalise.to_mjcf.site_sensors import SINGLE, imu_parts, single_parts, wrench_parts
 from twinform.passes.legalise.to_mjcf.writing_context import Body, MjcfContext
 
 _LIDARS = frozenset({"gpu_lidar", "gpu_ray", "lidar", "ray"})
@@ -72,22 +70,9 @@ def _link_sensor(context: MjcfContext, sensor: Sensor, body: Body) -> SensorPart
         return _lidar_parts(context, sensor, body, place)
     if sensor.type == "contact":
         return _contact_parts(context, sensor, body)
-    if sensor.type in _SINGLE:
-        return _single_parts(context, sensor, _site_name(context, sensor, body), place)
+    if sensor.type in SINGLE:
+        return single_parts(context, sensor, _site_name(context, sensor, body), place)
     return None
-
-
-_SINGLE = frozenset({"altimeter", "magnetometer"})
-
-
-def _single_parts(context: MjcfContext, sensor: Sensor, site: str, place: Transform) -> SensorParts:
-    """The parts of a sensor that MuJoCo has one quantity for: its height is the third number of the position."""
-    name = context.name("sensor", site, sensor.location)
-    if sensor.type == "magnetometer":
-        made = reading("magnetometer", name, site=site)
-    else:
-        made = reading("framepos", name, objtype="site", objname=site)
-    return SensorParts([sensor_site(site, place)], [made])
 
 
 def _camera_parts(context: MjcfContext, sensor: Sensor, body: Body, place: Transform) -> SensorParts | None:

@@ -12,7 +12,8 @@ from twinform.passes.legalise.to_mjcf.bodies import body_elements
 from twinform.passes.legalise.to_mjcf.contacts import add_contacts
 from twinform.passes.legalise.to_mjcf.elements import make_element
 from twinform.passes.legalise.to_mjcf.equalities import add_equalities
-from twinform.passes.legalise.to_mjcf.kept_sections import SINGLE, add_kept_sections
+from twinform.passes.legalise.to_mjcf.kept_mjcf import SINGLE
+from twinform.passes.legalise.to_mjcf.kept_sections import add_kept_sections
 from twinform.passes.legalise.to_mjcf.lights import world_lights
 from twinform.passes.legalise.to_mjcf.made_names import remove_made_names
 from twinform.passes.legalise.to_mjcf.mimics import add_gearboxes, add_mimics

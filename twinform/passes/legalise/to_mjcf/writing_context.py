@@ -31,8 +31,7 @@ from twinform.ir.transform import Transform
 from twinform.passes.carriers.annotations import MADE_NAME, find_annotation
 from twinform.passes.carriers.carriers import Keeper
 from twinform.passes.framework.assets import NO_ASSETS, Assets
-from twinform.passes.legalise.to_mjcf.contact_plan import ContactPlan
-from twinform.passes.legalise.to_mjcf.frictions import friction_priorities
+from twinform.passes.legalise.to_mjcf.contact_plan import ContactPlan, friction_priorities
 from twinform.passes.legalise.to_mjcf.kept_mjcf import ROOT, kept_elements
 from twinform.passes.shared.replaced_shapes import ShapeReplacer
 

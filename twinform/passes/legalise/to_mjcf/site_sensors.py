@@ -1,8 +1,12 @@
-"""Force-torque sensors on joints as a force and a torque on a site of MJCF, in the body that the joint moves.
+"""Sensors of SDF as quantities of one site of MJCF: IMUs, altimeters, magnetometers and force-torque sensors.
 
-MuJoCo reports what the parent does to the child, in the axes of the site and about its origin. SDF has these axes in
-`frame`: those of the sensor, the child or the parent. With `parent_to_child` SDF has the same sign, and with
-`child_to_parent`, its default, the opposite one (gz-sensors, ForceTorqueSensor::Update).
+An IMU is an accelerometer, a gyroscope and an orientation. Both languages measure the acceleration without gravity: at
+rest it is 9.81 m/s^2 upward.
+
+A force-torque sensor is a force and a torque in the body that its joint moves. MuJoCo reports what the parent does to
+the child, in the axes of the site and about its origin. SDF has these axes in `frame`: those of the sensor, the child
+or the parent. With `parent_to_child` SDF has the same sign, and with `child_to_parent`, its default, the opposite one
+(gz-sensors, ForceTorqueSensor::Update).
 """
 
 from twinform.diagnostics import Fate, rules
@@ -14,6 +18,43 @@ from twinform.passes.legalise.to_mjcf.said_parts import child_text, untyped
 from twinform.passes.legalise.to_mjcf.sensor_parts import SensorParts, common_noise, reading
 from twinform.passes.legalise.to_mjcf.sites import sensor_site
 from twinform.passes.legalise.to_mjcf.writing_context import Body, MjcfContext
+
+_FALSE = frozenset({"false", "0"})
+
+
+def imu_parts(context: MjcfContext, sensor: Sensor, site: str, place: Transform) -> SensorParts:
+    """The parts of an IMU at a place in its body.
+
+    The orientation is that in the world; SDF counts it from the one at the start unless told otherwise.
+    """
+    where = sensor.location
+    readings = [
+        reading(
+            kind,
+            context.name("sensor", f"{site}_{kind}", where),
+            common_noise(sensor, "imu", group),
+            site=site,
+        )
+        for kind, group in (("accelerometer", "linear_acceleration"), ("gyro", "angular_velocity"))
+    ]
+    if child_text(untyped(sensor, "imu"), "enable_orientation") not in _FALSE:
+        name = context.name("sensor", f"{site}_framequat", where)
+        readings.append(reading("framequat", name, objtype="site", objname=site))
+    return SensorParts([sensor_site(site, place)], readings)
+
+
+SINGLE = frozenset({"altimeter", "magnetometer"})
+"""The types of sensors that are one quantity in MuJoCo."""
+
+
+def single_parts(context: MjcfContext, sensor: Sensor, site: str, place: Transform) -> SensorParts:
+    """The parts of a sensor that MuJoCo has one quantity for: its height is the third number of the position."""
+    name = context.name("sensor", site, sensor.location)
+    if sensor.type == "magnetometer":
+        made = reading("magnetometer", name, site=site)
+    else:
+        made = reading("framepos", name, objtype="site", objname=site)
+    return SensorParts([sensor_site(site, place)], [made])
 
 
 def wrench_parts(context: MjcfContext, sensor: Sensor, site: str, joint: JointBetween, body: Body) -> SensorParts:
