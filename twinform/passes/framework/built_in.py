@@ -35,6 +35,7 @@ BUILT_IN: Mapping[str, str] = {
     "replace-continuous": "joints.replace_continuous:ReplaceContinuous",
     "reroot": "structure.reroot:Reroot",
     "rewrite-uris": "appearance.rewrite_uris:RewriteUris",
+    "ros2-control-from-actuators": "joints.ros2_control_from_actuators:Ros2ControlFromActuators",
     "ros2-control-from-transmissions": "joints.ros2_control_from_transmissions:Ros2ControlFromTransmissions",
     "set-surface": "appearance.set_surface:SetSurface",
     "simplify-collisions": "meshes.simplify_collisions:SimplifyCollisions",

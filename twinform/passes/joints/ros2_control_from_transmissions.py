@@ -10,9 +10,15 @@ from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, Fate, Location, rules
 from twinform.ir import Document, Element, Format, Joint, Model, Opaque, rewrite
 from twinform.passes.framework.pass_base import Pass
+from twinform.passes.joints.ros2_control import (
+    GAZEBO,
+    command_element,
+    controlled_joints,
+    joint_element,
+    system_element,
+)
 from twinform.passes.joints.transmission import (
     PLUGINS,
-    STATES,
     Transmission,
     as_parts,
     commands_of,
@@ -23,7 +29,6 @@ from twinform.passes.joints.transmission import (
     urdf_elements,
     write_ros2_transmission,
 )
-from twinform.passes.shared.nodes import unique_name
 
 _UNMOVABLE = frozenset({"fixed", "floating", "planar"})
 
@@ -52,7 +57,7 @@ class Ros2ControlFromTransmissions(Pass):
     example: ClassVar[str] = "ros2-control-from-transmissions{hardware=mock_components/GenericSystem}"
 
     hardware: str = Field(
-        default="gz_ros2_control/GazeboSimSystem",
+        default=GAZEBO,
         min_length=1,
         description="The plugin behind the joints, such as `mock_components/GenericSystem` or a driver.",
     )
@@ -84,14 +89,8 @@ class Ros2ControlFromTransmissions(Pass):
     def _system(
         self, model: Model, format_: Format, joints: Iterable[Element], transmissions: Iterable[Transmission]
     ) -> Element:
-        taken = {element.get("name") or "" for _, element in urdf_elements(model, format_, "ros2_control")}
-        name = unique_name(self.system or f"{model.name}_system", taken)
-        hardware = Element(name="hardware", children=(Element(name="plugin", text=self.hardware),))
-        return Element(
-            name="ros2_control",
-            attributes=(("name", name), ("type", "system")),
-            children=(hardware, *joints, *map(write_ros2_transmission, transmissions)),
-        )
+        parts = (*joints, *map(write_ros2_transmission, transmissions))
+        return system_element(model, format_, self.system, self.hardware, parts)
 
 
 @dataclass()
@@ -106,13 +105,7 @@ class _ModelRun:
 
     def __post_init__(self) -> None:
         self.known = {joint.name: joint for joint in self.model.joints}
-        systems = [element for _, element in urdf_elements(self.model, self.format, "ros2_control")]
-        self.controlled = {
-            child.get("name") or "": system.get("name") or ""
-            for system in systems
-            for child in system.children
-            if child.name == "joint"
-        }
+        self.controlled = controlled_joints(self.model, self.format)
 
     def check(self, part: Opaque, transmission: Transmission) -> bool:
         """Whether a transmission can be expressed in ROS 2; reports why not."""
@@ -130,7 +123,7 @@ class _ModelRun:
                 listed = commands.setdefault(end.name, [])
                 for interface in end.interfaces:
                     listed += self._commands(part, end.name, interface)
-        return [_joint_element(name, dict.fromkeys(listed)) for name, listed in commands.items()]
+        return [joint_element(name, map(command_element, dict.fromkeys(listed))) for name, listed in commands.items()]
 
     def account(self, part: Opaque, transmission: Transmission, *, stays: bool) -> None:
         """Report and account for one converted transmission."""
@@ -183,18 +176,6 @@ class _ModelRun:
 
     def _place(self, part: Opaque) -> Location:
         return location_of(part, self.model)
-
-
-def _joint_element(name: str, commands: Iterable[str]) -> Element:
-    interfaces = [_interface_element("command_interface", each) for each in commands]
-    # JointStateHandle of ros_control tells all three for every joint, so controllers that were
-    # written for it expect all three.
-    interfaces += [_interface_element("state_interface", each) for each in STATES]
-    return Element(name="joint", attributes=(("name", name),), children=tuple(interfaces))
-
-
-def _interface_element(kind: str, name: str) -> Element:
-    return Element(name=kind, attributes=(("name", name),))
 
 
 def _local_tag(name: str) -> str:

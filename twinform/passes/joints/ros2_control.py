@@ -1,0 +1,43 @@
+"""Elements of `<ros2_control>`: a system with its hardware, its joints, and their interfaces."""
+
+from collections.abc import Iterable
+
+from twinform.ir import Element, Format, Model
+from twinform.passes.joints.transmission import STATES, urdf_elements
+from twinform.passes.shared.nodes import unique_name
+
+GAZEBO = "gz_ros2_control/GazeboSimSystem"
+"""The plugin of gz_ros2_control."""
+_SYSTEM = "ros2_control"
+
+
+def controlled_joints(model: Model, format_: Format) -> dict[str, str]:
+    """Return the joints that are in a system already, each with the name of the system."""
+    return {
+        child.get("name") or "": system.get("name") or ""
+        for _, system in urdf_elements(model, format_, _SYSTEM)
+        for child in system.children
+        if child.name == "joint"
+    }
+
+
+def system_element(model: Model, format_: Format, name: str | None, plugin: str, parts: Iterable[Element]) -> Element:
+    """Return a system with a plugin as its hardware; without a name it has that of the model with `_system` behind."""
+    taken = {element.get("name") or "" for _, element in urdf_elements(model, format_, _SYSTEM)}
+    made = unique_name(name or f"{model.name}_system", taken)
+    hardware = Element(name="hardware", children=(Element(name="plugin", text=plugin),))
+    return Element(name=_SYSTEM, attributes=(("name", made), ("type", "system")), children=(hardware, *parts))
+
+
+def joint_element(name: str, commands: Iterable[Element]) -> Element:
+    """Return a joint of a system with its commands and all states."""
+    # JointStateHandle of ros_control tells all three for every joint, so controllers that were
+    # written for it expect all three.
+    states = (Element(name="state_interface", attributes=(("name", each),)) for each in STATES)
+    return Element(name="joint", attributes=(("name", name),), children=(*commands, *states))
+
+
+def command_element(name: str, ends: Iterable[tuple[str, str]] = ()) -> Element:
+    """Return a command interface; `ends` are its parameters `min` and `max`, where it has any."""
+    parameters = (Element(name="param", attributes=(("name", key),), text=text) for key, text in ends)
+    return Element(name="command_interface", attributes=(("name", name),), children=tuple(parameters))
