@@ -2,6 +2,7 @@
 
 import errno
 import os
+import shlex
 import stat
 from collections.abc import Callable, Iterable, Iterator
 from itertools import chain
@@ -16,10 +17,11 @@ _HIDDEN = f"{os.sep}."
 class OutsideError(PermissionError):
     """A file must not be read: `reason` says where its name leads, and `help` what to do if that is intended."""
 
-    def __init__(self, path: str, reason: str) -> None:
+    def __init__(self, path: str, reason: str, place: str) -> None:
         super().__init__(errno.EACCES, f"it {reason}", path)
         self.reason = reason
-        self.help = "if this is meant, name that file itself, or give its folder with --path DIR"
+        folder = shlex.quote(os.path.dirname(place))
+        self.help = f"if this is meant, name that file itself, or give its folder: --path {folder}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,7 +83,7 @@ class Readable:
         """
         real = os.path.realpath(path)
         if not self._allows_path(path, real):
-            raise OutsideError(str(path), self._reason(real))
+            raise OutsideError(str(path), self._reason(real), real)
         return real
 
     def read(self, path: str | Path, size: int | None = None) -> bytes:
@@ -97,7 +99,7 @@ class Readable:
 
         def check(place: str) -> None:
             if place != expected and not self._allows_place(place):
-                raise OutsideError(str(path), self._reason(place))
+                raise OutsideError(str(path), self._reason(place), place)
 
         return read_regular(Path(path), size, check)
 

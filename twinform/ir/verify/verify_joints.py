@@ -40,7 +40,8 @@ def verify_joint(joint: Joint, sink: DiagnosticSink, *, every_axis: bool = False
     for number, (name, each) in enumerate((("axis", axis), ("axis2", axis2))):
         if each is not None and freedoms > number:
             _verify_axis(joint, name, each, sink, is_urdf=not every_axis)
-        elif each is not None:
+        elif each is not None and not (each.source and each.source.step == "joint"):
+            # what MJCF says of a ball stands in its joint, and needs an axis only here
             _verify_unused(joint, name, each, sink, is_read=every_axis)
     if freedoms and (axis is None or axis.xyz is None):
         _missing(joint, "axis", sink)

@@ -56,9 +56,13 @@ class Attaching:
             parent = attachment.getparent()
             if parent is not None:
                 parent.remove(attachment)
-        for assets in root.iterchildren("asset"):
-            for model in [*assets.iterchildren("model")]:
-                assets.remove(model)
+        attached = {each.get("model") for each in attachments}
+        for asset in [*root.iterfind("asset/model")]:
+            if self._name_of(asset) not in attached:
+                self._find(asset, findings)  # MuJoCo reads it, too
+            parent = asset.getparent()
+            if parent is not None:
+                parent.remove(asset)
 
     def _child(
         self, attachment: XmlElement, root: XmlElement, whole: XmlElement | None, findings: ElementFindings
@@ -72,16 +76,15 @@ class Attaching:
             message = f"no <model> of the assets is called {name!r}"
             findings.report(rules.UNATTACHED_MODEL, attachment, message, "@model", found=name)
             return None
-        file = asset.get("file", "")
-        path = self.files[-1].parent / file
-        child = self._read(path, file, asset, findings)
+        child = self._find(asset, findings)
         if child is None or self._is_too_much(child, attachment, findings):
             return None
         give_number(child, attachment)
+        path = self._path(asset)
         keys = AttachedKeys(counted=self.keys.counted)
         inner = Attaching(self.load_options, self.prepare, (*self.files, path.resolve()), self.elements, keys)
         settings = self.prepare(child, findings, inner)
-        folder = dirname(file.replace("\\", "/"))
+        folder = dirname(asset.get("file", "").replace("\\", "/"))
         around = CompilerSettings(mesh_folder=folder, texture_folder=folder)
         for each in child.iter("*"):
             around.resolve_files(each)
@@ -130,7 +133,7 @@ class Attaching:
         name, root = asset.get("name"), None
         if not name:
             with suppress(UnreadableError):
-                root = self._tree(self.files[-1].parent / asset.get("file", ""), DiagnosticSink())
+                root = self._tree(self._path(asset), DiagnosticSink())
         return name or (root.get("model", "MuJoCo Model") if root is not None else "")
 
     def _own_tree(self, attachment: XmlElement, whole: XmlElement, findings: ElementFindings) -> XmlElement | None:
@@ -179,8 +182,12 @@ class Attaching:
         findings.report(rules.OVERSIZED_FILE, attachment, message, help=LIFTED_BY_TAGS)
         return True
 
-    def _read(self, path: Path, file: str, asset: XmlElement, findings: ElementFindings) -> XmlElement | None:
-        """Return the tree of a file, or None where it cannot be read, which is reported."""
+    def _path(self, asset: XmlElement) -> Path:
+        return self.files[-1].parent / asset.get("file", "")
+
+    def _find(self, asset: XmlElement, findings: ElementFindings) -> XmlElement | None:
+        """Return the tree of the file of an asset, or None where it cannot be read, which is reported."""
+        file, path = asset.get("file", ""), self._path(asset)
         if path.resolve() in self.files:
             message = f"{file!r} attaches itself, directly or by way of others"
             findings.report(rules.INCLUDE_CYCLE, asset, message, "@file", found=file)

@@ -217,8 +217,8 @@ class FileLowering:
             light = lower_light(piece, piece.name or f"light{number or ''}", self.keeper)
             if light is not None:
                 lights.append(light if piece.name else with_annotation(light, MADE_NAME, light.name))
-        frames = tuple(self._frames())
         ground = self._ground()
+        frames = tuple(self._frames({each.name for each in (*ground, *models, *lights)}))
         left = [
             self.keeper.whole(each, why="a world of SDF has no place for it")
             for each in self.sections.inside(WORLDBODY)
@@ -236,13 +236,13 @@ class FileLowering:
             source=self.root.source,
         )
 
-    def _frames(self) -> Iterable[Frame]:
+    def _frames(self, taken: set[str]) -> Iterable[Frame]:
         for site in self.sections.inside(WORLDBODY):
             if site.tag == "site" and site.name is not None:
                 name = site.take("name") or ""
                 pose = pose_of(site.transform(), source=site.source)
                 rest = self.keeper.rest(site, is_marked=True)
-                given = safe_name(name)
+                given = reserve_name(safe_name(name), taken)
                 marks = _name_mark(name, given)
                 yield Frame.unchecked(name=given, pose=pose, opaque=(*marks, *rest), source=site.source)
 
