@@ -104,6 +104,10 @@ class RequestOptions(TypedDict, total=False):
             "from the folder of the result."
         ),
     ]
+    default_classes: Annotated[
+        bool,
+        Option(help="Whether MJCF has classes of defaults for what many of its elements say alike.", setting=True),
+    ]
     side_files: bool
     mesh_folder: str
     comments: Annotated[bool, Option(help="Whether comments of the source go along.")]
@@ -125,6 +129,7 @@ class Requested:
     shape_error: float | None = None
     mesh_prefix: str | None = None
     keep_paths: bool = False
+    default_classes: bool = False
     side_files: bool = True
     mesh_folder: str = "meshes"
     """Where meshes of shapes go that MJCF lacks; packages have their own folders."""

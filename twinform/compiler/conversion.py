@@ -93,7 +93,8 @@ def convert_once(
         # parses the text again (`Conversion.source`).
         load_options = replace(load_options, keep_tree=False).read_by(request.sdf_version)
         comments = request.comments and request.to != "json"  # which has no place for any
-        as_mjcf = request.to == "mjcf" and not (request.passes or request.remedies)  # text of MJCF stays what it is
+        # text of MJCF stays what it is
+        as_mjcf = request.to == "mjcf" and not (request.passes or request.remedies or request.default_classes)
         loaded = read(source, replace(load_options, keep_comments=comments, as_mjcf=as_mjcf), name=name)
         request = replace(request, assets=LocalAssets(load_options.search, Path(loaded.path)))
         # SDF to SDF keeps its includes: a world with 525 models from Fuel is read and written

@@ -71,7 +71,9 @@ def convert(
         mesh_prefix: What the URIs of such meshes begin with, such as package://arm; else they are relative paths.
         keep_paths: Leave relative paths as they are in the source, for a result that will lie beside it; else they lead
             from the folder of the result.
+        default_classes: Whether MJCF has classes of defaults for what many of its elements say alike.
         side_files: Whether meshes may be made that have to lie beside the result, such as that of an ellipsoid.
+        mesh_folder: The folder beside the result for meshes of shapes that MJCF lacks.
         comments: Whether comments of the source go along.
         model: The model that is meant, where a file has several.
         keep_physics: Refuse passes for consumers that change masses, inertias, joints or limits.

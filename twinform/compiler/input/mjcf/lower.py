@@ -218,7 +218,7 @@ class FileLowering:
             if light is not None:
                 lights.append(light if piece.name else with_annotation(light, MADE_NAME, light.name))
         ground = self._ground()
-        frames = tuple(self._frames({each.name for each in (*ground, *models, *lights)}))
+        frames = tuple(self._frames({each.name or "" for each in (*ground, *models, *lights)}))
         left = [
             self.keeper.whole(each, why="a world of SDF has no place for it")
             for each in self.sections.inside(WORLDBODY)

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 from twinform.ir import Format
 from twinform.passes.framework.pass_base import Pass
+from twinform.passes.legalise.to_mjcf.factor_defaults import FactorDefaults
 from twinform.passes.legalise.to_mjcf.hold_root import HoldRoot
 from twinform.passes.legalise.to_mjcf.write_mjcf import WriteMjcf
 from twinform.passes.sdf_versions import change_version, raise_words
@@ -45,7 +46,8 @@ def to_mjcf(
         mesh_folder=requested.mesh_folder,
     )
     # MuJoCo computes inertias of shapes in its own way, and of all links or none.
-    return (*in_sdf, WriteInertias.unchecked(version=_WITHOUT_AUTOMATIC), write)
+    factor = (FactorDefaults.unchecked(),) if requested.default_classes else ()
+    return (*in_sdf, WriteInertias.unchecked(version=_WITHOUT_AUTOMATIC), write, *factor)
 
 
 def _robot_on_the_world(version: str, requested: Requested, *, mixed: bool) -> Iterator[Pass]:
