@@ -109,7 +109,6 @@ class RequestOptions(TypedDict, total=False):
         Option(help="Whether MJCF has classes of defaults for what many of its elements say alike.", setting=True),
     ]
     side_files: bool
-    mesh_folder: str
     comments: Annotated[bool, Option(help="Whether comments of the source go along.")]
     expand_includes: bool
     model: str | None
