@@ -11,9 +11,8 @@ from typing import Any
 from lxml import etree
 
 import twinform
-from testbed.mjcf.compiled import Compiled
 from testbed.mjcf.home_trips import came_home
-from testbed.mjcf.of_mjcf import InDrake, Tree, bare, loops_of, of_joints, offset_of, trees_of
+from testbed.mjcf.of_mjcf import Tree, differences_in_sdf, differences_in_urdf, trees_of, without_rotors
 from testbed.mjcf_models import PACKAGES, load
 from twinform.compiler.conversion import Conversion
 from twinform.compiler.request import Language
@@ -91,7 +90,7 @@ class _Judge:
 
     def __init__(self, mujoco: Any, model: Any, path: Path) -> None:
         self.mujoco, self.model, self.path = mujoco, model, path
-        self.compiled = _without_what_only_mjcf_has(mujoco, path)
+        self.compiled = without_rotors(mujoco, path)
 
     def questions(self) -> Iterable[tuple[Question, Callable[[], Iterable[str]]]]:
         """Yield what can be asked: what is not read is not converted."""
@@ -107,7 +106,7 @@ class _Judge:
             return
         yield Question.READ, lambda: ()
         yield Question.TREE, self._tree
-        yield Question.SDF, lambda: self._in_drake(made)
+        yield Question.SDF, lambda: differences_in_sdf(self.compiled, made)
         yield Question.SDF_HOME, lambda: self._home(made.text, ".sdf")
         trees = trees_of(self.compiled, made.document)
         if isinstance(trees, str):
@@ -124,21 +123,10 @@ class _Judge:
         one, other = (_plain(text) for text in (self.path.read_bytes(), self._convert(self.path, "mjcf").text.encode()))
         return [] if one == other else ["the tree is another one"]
 
-    def _in_drake(self, made: Conversion) -> Iterable[str]:
-        trees = trees_of(self.compiled, made.document)
-        if isinstance(trees, str):
-            return [trees]
-        there = InDrake(self.compiled, bare(made.text, loops_of(trees)), trees, {})
-        return [*of_joints(self.compiled, trees), *there.differences()]
-
     def _urdfs(self, trees: list[Tree], *, is_model: bool) -> Iterable[str]:
         for tree in trees:
-            yield from self._urdf(tree, None if is_model else tree.model.name)
-
-    def _urdf(self, tree: Tree, name: str | None) -> list[str]:
-        made = self._convert(self.path, "urdf", name)
-        offsets = {each.name: offset_of(each) for each in made.document.models[0].links}
-        return InDrake(self.compiled, bare(made.text, loops_of([tree])), [tree], offsets).differences()
+            made = self._convert(self.path, "urdf", None if is_model else tree.model.name)
+            yield from differences_in_urdf(self.compiled, tree, made)
 
     def _home(self, text: str, suffix: str) -> Iterable[str]:
         beside = self.path.with_name(f".there-{os.getpid()}-{self.path.stem}{suffix}")
@@ -148,15 +136,6 @@ class _Judge:
         finally:
             beside.unlink()
         return came_home(self.mujoco, self.path, self.model, home)
-
-
-def _without_what_only_mjcf_has(mujoco: Any, path: Path) -> Compiled:
-    """The model without what moves it and has no counterpart: inertia of rotors and of tendons, and no gravity."""
-    model = load(mujoco, path)
-    for name in ("dof_armature", "tendon_armature"):
-        getattr(model, name)[:] = 0.0
-    model.opt.disableflags &= ~int(mujoco.mjtDisableBit.mjDSBL_GRAVITY)
-    return Compiled(mujoco, model)
 
 
 def _plain(text: bytes) -> bytes:

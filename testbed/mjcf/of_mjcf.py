@@ -9,6 +9,7 @@ import importlib
 import logging
 import math
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -17,10 +18,12 @@ from lxml import etree
 from testbed.mjcf.compiled import BALL, FREE, Array, Compiled, pose_of
 from testbed.mjcf.differences import TOLERANCE, compare, speeds
 from testbed.mjcf.from_drake import LOOSE, quaternion_of
+from twinform.compiler.conversion import Conversion
 from twinform.ir import Document, Joint, Link, Model
-from twinform.passes.carriers.annotations import MADE_NAME, find_annotation, is_synthesized
+from twinform.passes.carriers.annotations import MADE_NAME, WORLDBODY, find_annotation, is_synthesized
 from twinform.passes.carriers.carriers import NAMESPACE
 from twinform.testing.oracles.robot import inverse
+from twinform.testing.oracles.robot_comparison import IN_CHAINS
 
 _POSITIONS = 4
 _UNSEEN = ("visual", "collision", "sensor", "light", "physics", "wind", "magnetic_field", "mimic", "gazebo")
@@ -56,7 +59,7 @@ def trees_of(source: Compiled, document: Document) -> list[Tree] | str:
     free = {int(model.jnt_bodyid[number]): number for number in range(model.njnt) if model.jnt_type[number] == FREE}
     found: list[Tree] = []
     for each in [*document.models, *(inner for world in document.worlds for inner in world.models)]:
-        if find_annotation(each, MADE_NAME) is not None and each.static:
+        if each.static and each.name == WORLDBODY and find_annotation(each, MADE_NAME) is not None:
             continue
         links = [link.name for link in each.links if not is_synthesized(link)]
         moving = [joint for joint in each.joints if joint.type != "fixed" and not _closes(joint, each)]
@@ -73,7 +76,36 @@ def _closes(joint: Joint, model: Model) -> bool:
     return next(each for each in model.joints if each.child == joint.child) is not joint
 
 
-def of_joints(source: Compiled, trees: Iterable[Tree]) -> Iterator[str]:
+def without_rotors(mujoco: Any, path: Path) -> Compiled:
+    """MuJoCo's model of a file without what only MJCF has and the mass matrix shows: inertia of rotors and tendons.
+
+    Raises:
+        ValueError: MuJoCo refuses the file.
+    """
+    model = mujoco.MjModel.from_xml_path(str(path))
+    model.dof_M0[:] -= model.dof_armature  # of bodies whose mass matrix is the same everywhere
+    for name in ("dof_armature", "tendon_armature"):
+        getattr(model, name)[:] = 0.0
+    model.opt.disableflags &= ~int(mujoco.mjtDisableBit.mjDSBL_GRAVITY)
+    return Compiled(mujoco, model)
+
+
+def differences_in_sdf(source: Compiled, made: Conversion) -> list[str]:
+    """Return what differs between a file and the SDF that it became, as Drake reads that."""
+    trees = trees_of(source, made.document)
+    if isinstance(trees, str):
+        return [trees]
+    there = _InDrake(source, _bare(made.text, _loops_of(trees)), trees, {})
+    return [*_of_joints(source, trees), *there.differences()]
+
+
+def differences_in_urdf(source: Compiled, tree: Tree, made: Conversion) -> list[str]:
+    """Return what differs between one tree of a file and the URDF that it became, as Drake reads that."""
+    offsets = {each.name: _offset_of(each) for each in made.document.models[0].links}
+    return _InDrake(source, _bare(made.text, _loops_of([tree])), [tree], offsets).differences()
+
+
+def _of_joints(source: Compiled, trees: Iterable[Tree]) -> Iterator[str]:
     """Yield the joints whose type or range is another one in the document."""
     model = source.model
     for number, joint in (each for tree in trees for each in tree.joints.values()):
@@ -90,7 +122,7 @@ def of_joints(source: Compiled, trees: Iterable[Tree]) -> Iterator[str]:
             yield f"joint {joint.name} moves from {here[0]} to {here[1]}, and in MuJoCo from {wanted[0]} to {wanted[1]}"
 
 
-def bare(text: str, loops: Collection[str] = ()) -> bytes:
+def _bare(text: str, loops: Collection[str] = ()) -> bytes:
     """Return a text without shapes and all else that does not matter, and without the joints that close loops."""
     root = etree.fromstring(text.encode())
     closing = [each for each in root.iter("joint") if each.get("name") in loops]
@@ -101,7 +133,7 @@ def bare(text: str, loops: Collection[str] = ()) -> bytes:
     return etree.tostring(root)
 
 
-def loops_of(trees: Iterable[Tree]) -> frozenset[str]:
+def _loops_of(trees: Iterable[Tree]) -> frozenset[str]:
     """Return the names of the joints that close loops."""
     return frozenset(each.name for tree in trees for each in tree.model.joints if _closes(each, tree.model))
 
@@ -114,7 +146,7 @@ class _Freedom(NamedTuple):
     drake: Sequence[Any]
 
 
-class InDrake:
+class _InDrake:
     """A text of SDF or URDF that was made of some trees, in Drake."""
 
     def __init__(self, source: Compiled, text: bytes, trees: Sequence[Tree], offsets: Mapping[str, Array]) -> None:
@@ -135,6 +167,7 @@ class InDrake:
             for tree in trees
         }
         self.freedoms = [freedom for tree in trees for freedom in self._freedoms(tree)]
+        self.tolerance = IN_CHAINS if any(len(each.drake) > 1 for each in self.freedoms) else LOOSE
 
     def _freedoms(self, tree: Tree) -> Iterator[_Freedom]:
         instance = self.instances[tree.model.name]
@@ -188,9 +221,9 @@ class InDrake:
         mass = turn.T @ here.mass @ turn
         size = self._sizes(mass)
         scale = np.outer(size, size)
-        compare(found, "the mass matrix", mass * scale, plant.CalcMassMatrix(context) * scale, LOOSE)
+        compare(found, "the mass matrix", mass * scale, plant.CalcMassMatrix(context) * scale, self.tolerance)
         bias = plant.CalcBiasTerm(context) - plant.CalcGravityGeneralizedForces(context)
-        compare(found, "the bias forces", turn.T @ here.bias, bias, LOOSE)
+        compare(found, "the bias forces", turn.T @ here.bias, bias, self.tolerance)
         for tree in self.trees:
             for name, number in tree.bodies.items():
                 pose = plant.EvalBodyPoseInWorld(context, self._body(tree, name)).GetAsMatrix4()
@@ -284,7 +317,7 @@ def _rows(mass: float, center: Array, inertia: Array) -> Array:
     return np.vstack([[mass, *(mass * center)], np.hstack([inertia, np.zeros((3, 1))])])
 
 
-def offset_of(link: Link) -> Array:
+def _offset_of(link: Link) -> Array:
     """The frame that a link has in SDF, in the one that it has in URDF."""
     found = find_annotation(link, "offset")
     at = np.eye(4)
