@@ -28,9 +28,9 @@ _OF_MASS = frozenset({
 """Arrays that follow from the masses of bodies."""
 _SIZES = {"sphere": 1, "cylinder": 2, "capsule": 2}
 """How many numbers the size of a shape has, where it has not three."""
-_OF_MASSES = frozenset({
-    "inertiafromgeom", "inertiagrouprange", "settotalmass", "boundmass", "boundinertia", "balanceinertia",
-})  # fmt: skip
+_CHANGING = frozenset({"settotalmass", "boundmass", "boundinertia", "balanceinertia"})
+"""Settings of the compiler that change written masses."""
+_OF_MASSES = _CHANGING | {"inertiafromgeom", "inertiagrouprange"}
 """How MuJoCo computes masses that are written in what comes back."""
 
 
@@ -63,13 +63,12 @@ def _are_close(one: Any, other: Any) -> bool:
 
 
 def _in_normal_form(source: XmlElement, back: XmlElement) -> Iterator[str]:
-    from_geoms = any(each.get("inertiafromgeom") == "true" for each in source.iter("compiler"))
+    settings = {name: value for each in source.iter("compiler") for name, value in each.items()}
+    is_changed = settings.get("inertiafromgeom") == "true" or bool(_CHANGING.intersection(settings))
     for body, other in zip(source.iter("body"), back.iter("body"), strict=False):
-        inertial = other.find("inertial")
-        if from_geoms and (written := body.find("inertial")) is not None:
-            body.remove(written)
-        if body.find("inertial") is None and inertial is not None:
-            other.remove(inertial)
+        for tree in (body, other) if is_changed or body.find("inertial") is None else ():
+            for inertial in tree.findall("inertial"):
+                tree.remove(inertial)
     for tree in (source, back):
         _spell_alike(tree)
     for each in NormalForm.of(source).compare(NormalForm.of(back)):

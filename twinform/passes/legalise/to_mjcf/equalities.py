@@ -12,8 +12,9 @@ from twinform.ir.frames import WORLD
 from twinform.ir.kinematic_tree import JointBetween
 from twinform.ir.node import Vector3
 from twinform.ir.transform import Transform, rounded
+from twinform.passes.legalise.changed_names import source_name
 from twinform.passes.legalise.to_mjcf.elements import Value, make_element
-from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements
+from twinform.passes.legalise.to_mjcf.kept_joints import with_kept_equality
 from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext, scope_of
 
 _BALLS = frozenset({"ball", "spherical"})
@@ -40,20 +41,25 @@ def _close(context: MjcfContext, between: JointBetween) -> None:
         context.account(rules.NOT_IN_MJCF, message, joint.location, 0)
         return
     if joint.type == "fixed":
-        _add(context, between, [_equality("weld", between.name, ends, joint)])
+        _add(context, between, [_equality("weld", _name(context, between, "weld"), ends, joint)])
         return
     points = _points(context, between)
     if not points:
         message = f"{joint.type} joint {joint.name!r} closes a loop, and MuJoCo holds loops together at points alone"
         context.account(rules.NOT_IN_MJCF, message, joint.location, 0)
         return
-    names = [between.name, f"{between.name}_axis"][: len(points)]
+    name = _name(context, between, "connect")
+    names = [name, f"{name}_axis"][: len(points)]
     pairs = zip(names, points, strict=True)
     made = [_equality("connect", name, [*ends, ("anchor", rounded(point))], joint) for name, point in pairs]
     _add(context, between, made)
     if joint.type in _HINGES and joint.axis is not None and (joint.axis.limit or joint.axis.dynamics):
         message = f"joint {joint.name!r} closes a loop, and has neither limits nor damping in MJCF"
         context.sink.account(Fate.APPROXIMATED, rules.NOT_IN_MJCF, message, joint.location, 0)
+
+
+def _name(context: MjcfContext, between: JointBetween, tag: str) -> str:
+    return context.wish(tag, scope_of(between.name), between.joint, source_name(between.joint))
 
 
 def _add(context: MjcfContext, between: JointBetween, elements: list[Element]) -> None:
@@ -66,15 +72,7 @@ def _add(context: MjcfContext, between: JointBetween, elements: list[Element]) -
 
 
 def _equality(tag: str, name: str, attributes: list[tuple[str, Value]], joint: Joint) -> Element:
-    """One equality, with the settings of the solver that the joint keeps of the one that it was read from."""
-    made = make_element(tag, [("name", name), *attributes], (), joint.source)
-    for section in kept_elements(joint):
-        for kept in section.children:
-            if section.name == "equality" and kept.name == tag:
-                known = {key for key, _ in made.attributes}
-                more = tuple(pair for pair in kept.attributes if pair[0] not in known)
-                made = made.copy(attributes=(*made.attributes, *more))
-    return made
+    return with_kept_equality(make_element(tag, [("name", name), *attributes], (), joint.source), joint)
 
 
 def _points(context: MjcfContext, between: JointBetween) -> list[Vector3]:

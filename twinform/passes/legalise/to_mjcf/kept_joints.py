@@ -29,6 +29,17 @@ def with_kept_joint(element: Element, joint: Joint) -> Element:
     return _counted_from(made)
 
 
+def with_kept_equality(element: Element, joint: Joint) -> Element:
+    """Return an equality of MJCF with what the joint of SDF keeps of the one that it was read from."""
+    for section in kept_elements(joint):
+        for kept in section.children:
+            if section.name == "equality" and kept.name == element.name:
+                known = {key for key, _ in element.attributes}
+                more = tuple(pair for pair in kept.attributes if pair[0] not in known)
+                element = element.copy(attributes=(*element.attributes, *more))
+    return element
+
+
 def _with_rest(name: str, value: str, kept: Element) -> str:
     """Return a first coefficient with those that stood behind it."""
     others = (kept.get(name) or "").split()[1:] if name in _POLYNOMIALS else []

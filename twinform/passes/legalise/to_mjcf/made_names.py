@@ -18,8 +18,9 @@ def remove_made_names(context: MjcfContext) -> None:
         return
     used = {value for each in _walk(context) for key, value in each.attributes if key not in _OTHERS}
     made = {(kind, name) for kind, name in context.unnamed if name not in used}
-    bodies = context.sections["worldbody"]
-    bodies[:] = [_without(each, made) for each in bodies]
+    for section in ("worldbody", "equality"):
+        elements = context.sections.get(section, [])
+        elements[:] = [_without(each, made) for each in elements]
 
 
 def _walk(context: MjcfContext) -> Iterator[Element]:

@@ -5,11 +5,12 @@ constraint, which gives way a little under a force.
 """
 
 from twinform.diagnostics import rules
-from twinform.ir import Joint
+from twinform.ir import Element, Joint
 from twinform.ir.defaults import multiplier
 from twinform.ir.frames import FrameGraph
 from twinform.ir.joint import Mimic
 from twinform.passes.legalise.to_mjcf.elements import make_element
+from twinform.passes.legalise.to_mjcf.kept_joints import with_kept_equality
 from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext, scope_of
 from twinform.passes.shared.joint_ends import UngearedError, relation
 
@@ -34,13 +35,13 @@ def _add_mimic(context: MjcfContext, name: str, joint: Joint, number: int, mimic
         return
     factor = multiplier(mimic)
     offset = (mimic.offset or 0.0) - factor * (mimic.reference or 0.0)
-    add_relation(context, follower, leader, offset, factor)
+    context.add("equality", with_kept_equality(_relation(follower, leader, offset, factor), joint))
 
 
-def add_relation(context: MjcfContext, follower: str, leader: str, offset: float, factor: float) -> None:
-    """Add the equality that keeps a joint of MJCF at `factor` times the position of another, plus `offset`."""
+def _relation(follower: str, leader: str, offset: float, factor: float) -> Element:
+    """The equality that keeps a joint of MJCF at `factor` times the position of another, plus `offset`."""
     polynomial = (offset + 0.0, factor, 0.0, 0.0, 0.0)
-    context.add("equality", make_element("joint", [("joint1", follower), ("joint2", leader), ("polycoef", polynomial)]))
+    return make_element("joint", [("joint1", follower), ("joint2", leader), ("polycoef", polynomial)])
 
 
 def _written(context: MjcfContext, name: str, number: int) -> str | None:
@@ -74,4 +75,4 @@ def _add_gearbox(context: MjcfContext, scope: str, gearbox: Joint, joints: dict[
         return
     message = f"gearbox {gearbox.name!r} is a constraint: joint {found.follower!r} follows {found.leader!r}"
     context.approximate(rules.GEARBOX, message, gearbox.location)
-    add_relation(context, follower, leader, 0.0, found.multiplier)
+    context.add("equality", _relation(follower, leader, 0.0, found.multiplier))

@@ -112,6 +112,12 @@ def _is_rest(xml: XmlElement) -> bool:
     return next(xml.iterchildren(_MARK), None) is not None
 
 
+def _as_mjcf_has_it(joint: Joint) -> Joint:
+    """A joint without sensors, and without the axis of a ball, which is there for its damping alone."""
+    axis = joint.axis.copy(xyz=None) if joint.axis and joint.type == "ball" else joint.axis
+    return joint.copy(sensors=(), axis=axis)
+
+
 def _is_mocap(link: Link) -> bool:
     """Whether a link keeps that only a program moves it."""
     return any(each.name == "body" and each.get("mocap") == "true" for each in kept_elements(link))
@@ -201,13 +207,15 @@ class _Texts:
                 **nothing,
                 inertial=None if weight_of(each).is_nothing else each.inertial,
                 kinematic=None if _is_mocap(each) else each.kinematic,
+                gravity=None if each.gravity is False else each.gravity,
             )
             for each in model.links
             if each.name not in self.hidden
         ]
         model = model.copy(self_collide=None, static=None)
         joints = [each.copy(child=None) if each.child in self.hidden else each for each in model.joints]
-        moving = (each.copy(sensors=()) for each in joints if each.type != "fixed")
+        joints = [_as_mjcf_has_it(each) for each in joints if each.name not in self.closing]
+        moving = (each for each in joints if each.type != "fixed")
         for kind, parts in (("model", (model,)), ("link", links), ("joint", moving)):
             for each in parts:
                 self.joint = each if isinstance(each, Joint) else None
