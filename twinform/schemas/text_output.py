@@ -7,6 +7,7 @@ a typed field; `TextOutput.unusual` adds what has none, and notes where a node s
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import field
+from functools import cache
 from itertools import count
 from typing import Any
 
@@ -170,7 +171,7 @@ class TextOutput:
         self.version = version
         self.arrange = arrange
         self.parts = parts
-        self.declarations = _declarations(namespaces) if namespaces else ""
+        self.declarations = _declarations(tuple(namespaces.items())) if namespaces else ""
         self._taken = namespaces
         # Of two prefixes of a namespace lxml takes the first.
         prefixes = {uri: f"{prefix}:" for prefix, uri in reversed(namespaces.items())} if namespaces else {}
@@ -323,9 +324,10 @@ class TextOutput:
         return _PrefixNames({**names.prefixes, **{uri: f"{prefix}:" for uri, prefix in made.items()}}), declared
 
 
-def _declarations(namespaces: Mapping[str | None, str]) -> str:
+@cache
+def _declarations(namespaces: tuple[tuple[str | None, str], ...]) -> str:
     """Return the declarations of namespaces, in the form that lxml accepts."""
-    holder = etree.tostring(etree.Element("holder", nsmap=namespaces), encoding="unicode")
+    holder = etree.tostring(etree.Element("holder", nsmap=dict(namespaces)), encoding="unicode")
     return holder.removeprefix("<holder").removesuffix("/>")
 
 

@@ -38,14 +38,20 @@ def root_text(
     return text
 
 
-def node_xml(format: str, node: Any, definition: str) -> XmlElement:
+def node_xml(format: str, node: Any, definition: str, namespaces: dict[str | None, str] | None = None) -> XmlElement:
     """The XML of a node by the definition of its element, as the newest version of a format has it.
+
+    The namespaces are declared if they are in it.
 
     Raises:
         ValueError: there is a name or a text that XML cannot hold.
     """
-    text: str = _module(format).WRITERS[definition](node, TextOutput(_newest(format), {}), NEW_LINE)
-    return parse_written(text or f"<{definition}/>")
+    out = TextOutput(_newest(format), namespaces or {})
+    text: str = _module(format).WRITERS[definition](node, out, NEW_LINE).lstrip() or f"<{definition}/>"
+    if any(f"<{prefix}:" in text or f" {prefix}:" in text for prefix in namespaces or ()) and out.declarations not in text:
+        tag = f"<{definition}"
+        text = f"{tag}{out.declarations}{text.removeprefix(tag)}"
+    return parse_written(text)
 
 
 def parse_written(text: str) -> XmlElement:

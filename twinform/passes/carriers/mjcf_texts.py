@@ -82,9 +82,8 @@ def text_element(name: str, data: str) -> Element:
 
 def bare_xml(node: Node, kind: str) -> XmlElement:
     """The element of a partial node, without the white space of a layout."""
-    xml = node_xml("sdf", node, "sdf" if kind == DOCUMENT else kind)
+    xml = node_xml("sdf", node, "sdf" if kind == DOCUMENT else kind, {TF: NAMESPACE})
     _strip_layout(xml)
-    etree.cleanup_namespaces(xml, top_nsmap={TF: NAMESPACE})
     return xml
 
 
