@@ -48,7 +48,10 @@ def node_xml(format: str, node: Any, definition: str, namespaces: dict[str | Non
     """
     out = TextOutput(_newest(format), namespaces or {})
     text: str = _module(format).WRITERS[definition](node, out, NEW_LINE).lstrip() or f"<{definition}/>"
-    if any(f"<{prefix}:" in text or f" {prefix}:" in text for prefix in namespaces or ()) and out.declarations not in text:
+    if (
+        any(f"<{prefix}:" in text or f" {prefix}:" in text for prefix in namespaces or ())
+        and out.declarations not in text
+    ):
         tag = f"<{definition}"
         text = f"{tag}{out.declarations}{text.removeprefix(tag)}"
     return parse_written(text)

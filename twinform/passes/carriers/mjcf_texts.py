@@ -133,6 +133,11 @@ def read_node(data: str, kind: str, source: Source) -> Node:
     return maker(KINDS[kind])(values)
 
 
+def tagged(elements: Iterable[Element]) -> list[Tagged]:
+    """The tags and attributes of elements."""
+    return [(each.name, dict(each.attributes)) for each in elements]
+
+
 def digest_of(elements: Iterable[Tagged]) -> str:
     """A digest of elements of MJCF, in any order and with numbers of five digits: MuJoCo saves six."""
     lines = sorted(

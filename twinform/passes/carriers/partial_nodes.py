@@ -70,13 +70,15 @@ def remainder(node: AnyNode, said: Said, notes: Notes = _no_notes) -> AnyNode | 
     unsaid, known = _parts_of(base.__class__, fields)
     for name, usual in unsaid:
         value = getattr(base, name)
-        if _is_unwritten(value):
+        if not value and (value is None or value == ()):  # as most are; to compare records takes longer
             continue
-        left = _left_of(value, said, notes, usual)
-        if left is not value:
-            update[name] = left
-            is_said = True
-        has_content = has_content or not _is_unwritten(left)
+        left = _left_of(value, said, notes)
+        if left is value:
+            has_content = True
+            continue
+        is_said = True
+        update[name] = usual if left is None else left
+        has_content = has_content or left is not None
     if not has_content:  # most nodes are said as a whole, and need no copy
         return None
     for name, usual in known:
@@ -94,18 +96,14 @@ def _with_notes(node: AnyNode, notes: Notes) -> AnyNode:
     return node.copy(opaque=(*more, *node.opaque)) if more else node
 
 
-def _left_of(value: object, said: Said, notes: Notes, default: object) -> object:
-    """What is left of the value of a field that is not said as a whole; `default` where nothing is."""
+def _left_of(value: object, said: Said, notes: Notes) -> object:
+    """What is left of the value of a field that is not said as a whole; None where nothing is."""
     if isinstance(value, Node):
-        left = remainder(value, said, notes)
-        return default if left is None else left
-    if are_nodes(value):
-        nodes = value
-        made = tuple(left for each in nodes if (left := remainder(each, said, notes)) is not None)
-        if not made:
-            return default
-        return value if len(made) == len(nodes) and all(map(is_, made, nodes)) else made
-    return value
+        return remainder(value, said, notes)
+    if not are_nodes(value):
+        return value
+    made = tuple([left for each in value if (left := remainder(each, said, notes)) is not None])
+    return value if len(made) == len(value) and all(map(is_, made, value)) else made or None
 
 
 class Prepare(Protocol):

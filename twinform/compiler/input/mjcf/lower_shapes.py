@@ -10,7 +10,7 @@ from twinform.ir import Box, Capsule, Cylinder, Element, Ellipsoid, Heightmap, M
 from twinform.ir.geometry import Shape
 from twinform.ir.node import Vector3
 from twinform.ir.transform import Transform
-from twinform.passes.legalise.to_mjcf.plane_sizes import ENDLESS, GRID
+from twinform.passes.legalise.to_mjcf.elements import ENDLESS, GRID
 from twinform.schemas import format_value
 
 

@@ -14,6 +14,10 @@ from twinform.schemas.value_types import format_numbers
 Value = str | float | bool | tuple[float, ...] | None
 """What an attribute may be made of; one that is None is not written."""
 Attributes = Iterable[tuple[str, Value]]
+ENDLESS = 200.0
+"""The size in m that a plane without an end has in SDF, where it only matters for what is seen."""
+GRID = 1.0
+"""The distance in m of the lines that are drawn on a plane."""
 _UNTURNED = (1.0, 0.0, 0.0, 0.0)
 """The quaternion of no rotation."""
 

@@ -28,10 +28,9 @@ from twinform.ir.transform import Transform
 from twinform.passes.carriers.annotations import SAME_GEOM, find_annotation
 from twinform.passes.legalise.to_mjcf.assets import height_field, mesh_asset, vector_in
 from twinform.passes.legalise.to_mjcf.contacts import touch_of
-from twinform.passes.legalise.to_mjcf.elements import Attributes, Value, make_element, placement
+from twinform.passes.legalise.to_mjcf.elements import ENDLESS, GRID, Attributes, Value, make_element, placement
 from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements, with_kept
 from twinform.passes.legalise.to_mjcf.materials import look_of
-from twinform.passes.legalise.to_mjcf.plane_sizes import ENDLESS, GRID
 from twinform.passes.legalise.to_mjcf.said_parts import without_elements
 from twinform.passes.legalise.to_mjcf.writing_context import Body, MjcfContext
 from twinform.passes.mesh_jobs.mesh_files import NoMeshError

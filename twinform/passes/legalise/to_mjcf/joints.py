@@ -18,7 +18,7 @@ from twinform.ir.transform import Transform, rounded
 from twinform.passes.carriers.joint_chains import CHAINS, TWO_AXES, metres_per_radian
 from twinform.passes.legalise.changed_names import source_name
 from twinform.passes.legalise.to_mjcf.elements import Value, make_element, position
-from twinform.passes.legalise.to_mjcf.kept_joints import with_kept_joint
+from twinform.passes.legalise.to_mjcf.kept_mjcf import with_kept_joint
 from twinform.passes.legalise.to_mjcf.writing_context import Body, MjcfContext, scope_of
 
 _KINDS: dict[JointType, str] = {

@@ -10,7 +10,7 @@ from twinform.ir.defaults import multiplier
 from twinform.ir.frames import FrameGraph
 from twinform.ir.joint import Mimic
 from twinform.passes.legalise.to_mjcf.elements import make_element
-from twinform.passes.legalise.to_mjcf.kept_joints import with_kept_equality
+from twinform.passes.legalise.to_mjcf.kept_mjcf import with_kept_equality
 from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext, scope_of
 from twinform.passes.shared.joint_ends import UngearedError, relation
 

@@ -105,6 +105,11 @@ class MjcfContext:
     files: dict[object, str | None] = field(default_factory=dict[object, str | None])
     sections: dict[str, list[Element]] = field(default_factory=lambda: defaultdict(list))
 
+    @property
+    def version_read(self) -> str | None:
+        """The version of SDF that was read."""
+        return self.source_version or self.document.version
+
     @cached_property
     def tree(self) -> KinematicTree:
         """The links and joints, with scoped names.

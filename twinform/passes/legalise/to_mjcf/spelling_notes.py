@@ -1,0 +1,178 @@
+"""Annotations on how SDF wrote what MJCF says in another way: other names, the frames and notation of poses, the look.
+
+Poses and axes are in the file, so only their frame and notation are in a note. So they stay true after an edit.
+"""
+
+from collections.abc import Callable, Iterable, Mapping
+from typing import Any
+
+from twinform.ir import (
+    Collision,
+    Document,
+    Format,
+    Frame,
+    Geometry,
+    Inertial,
+    Joint,
+    Light,
+    Link,
+    Mesh,
+    Model,
+    Node,
+    Opaque,
+    Pose,
+    Sensor,
+    Visual,
+    World,
+)
+from twinform.ir.frames import MODEL, WORLD
+from twinform.ir.rewrite import classes_below
+from twinform.ir.transform import Transform
+from twinform.passes.carriers.annotations import FROM, annotation
+from twinform.passes.carriers.carriers import NAMESPACE, to_element
+from twinform.passes.carriers.mjcf_texts import (
+    ATTACHED,
+    AXES,
+    LOOK_OF,
+    LOOP,
+    PARTS,
+    PREFIXES,
+    SEVERAL,
+    SHAPE_OF,
+    TURN,
+    digest_of,
+    look_parts,
+    tagged,
+)
+from twinform.passes.carriers.partial_nodes import PLACE, WRITTEN
+from twinform.passes.carriers.said_by_mjcf import said_by_mjcf
+from twinform.passes.legalise.to_mjcf.what_is_said import WhatIsSaid
+from twinform.passes.legalise.to_mjcf.written_file import Shape
+from twinform.passes.shared.poses import OFFSET, POSE, offset_attributes, pose_attributes
+from twinform.schemas import format_value
+
+_POSED = frozenset(each for each in classes_below(Document) if "pose" in each.field_names)
+
+
+class SpellingNotes:
+    """Makes the annotations on the nodes of a flattened model that one file leaves necessary."""
+
+    def __init__(self, said: WhatIsSaid) -> None:
+        self.said, self.file, self.context = said, said.file, said.file.context
+        self._by_class: Mapping[type[Node], Callable[[Any], Iterable[Opaque]]] = {
+            **dict.fromkeys(_POSED, lambda _: ()),
+            Document: self._provenance,
+            Visual: self._on_visual,
+            Collision: self._on_shape,
+            Inertial: _on_inertial,
+            World: self._on_world,
+            Light: self._parts,
+            Sensor: lambda sensor: () if said.left_of(sensor) is None else self._parts(sensor),
+            Joint: self._on_joint,
+            Frame: self._attached,
+            Model: self._offset,
+        }
+
+    def on(self, node: Node) -> tuple[Opaque, ...]:
+        """The annotations on a node about its names in MJCF, and about the frames and notation of its poses."""
+        of_class = self._by_class.get(node.__class__)
+        if of_class is None:
+            return ()
+        written = [annotation(WRITTEN, attributes={"as": each}) for each in self.file.other_names(node)]
+        return (*written, *of_class(node), *self._pose(node))
+
+    def _pose(self, node: Node) -> Iterable[Opaque]:
+        """The frame and the notation of a pose."""
+        pose: Pose | None = getattr(node, "pose", None)
+        attributes = pose_attributes(pose)
+        if self.file.is_back and isinstance(node, Link | Joint):  # in URDF their frames go without saying
+            attributes.pop("relative_to", None)
+        return [annotation(POSE, attributes=attributes)] if attributes else ()
+
+    def _provenance(self, document: Document) -> Iterable[Opaque]:
+        """The version of SDF that the source had, and the prefixes in it."""
+        context = self.context
+        version, mixed = context.version_read, "true" if context.mixed else None
+        yield annotation(FROM, attributes={"format": Format.SDF.value, "version": version, "mixed": mixed})
+        if not (context.document.worlds or isinstance(context.holder, Model)):
+            yield annotation(SEVERAL)
+        for prefix, uri in document.namespaces:
+            if uri != NAMESPACE:
+                yield annotation(PREFIXES, attributes={"prefix": prefix, "uri": uri})
+
+    def _on_world(self, _world: World) -> Iterable[Opaque]:
+        yield annotation(PARTS, attributes={"digest": digest_of(tagged(self.context.sections.get("option", ())))})
+
+    def _offset(self, _model: Model) -> Iterable[Opaque]:
+        """Where the model's own frame is in the world, which MJCF has no frame for."""
+        if not self.file.is_back:
+            placed = self.context.tree.frames.pose(MODEL, WORLD, kind="model", base="world")
+            if not placed.is_identity:
+                yield annotation(OFFSET, attributes=offset_attributes(placed))
+
+    def _on_joint(self, joint: Joint) -> Iterable[Opaque]:
+        """How the frame of a joint is turned in its body, where MJCF only has an axis; that it closes a loop."""
+        if joint.name in self.file.closing:
+            return [annotation(LOOP)]
+        if joint.type == "fixed" or joint.child is None or not self.file.graph.knows(joint.child):
+            return ()
+        placed = self.file.graph.pose(joint.name, joint.child, kind="joint", base="link")
+        turn = None if placed.is_unturned else _numbers(placed.rpy())
+        # Where a slide is along its axis, and beside it, changes no motion.
+        is_slide = joint.type == "prismatic" and any(placed.translation)
+        place = _numbers(placed.translation) if is_slide else None
+        return [annotation(TURN, attributes={"rpy": turn, "xyz": place})] if turn or place else ()
+
+    def _attached(self, frame: Frame) -> Iterable[Opaque]:
+        """What a frame is attached to, if that is not the link that its site is in."""
+        body = self.file.graph.body(frame.name, kind="frame")
+        if frame.attached_to == body or (isinstance(self.context.holder, World) and frame.attached_to is None):
+            return ()
+        return [annotation(ATTACHED, attributes={"to": frame.attached_to or ""})]
+
+    def _on_visual(self, visual: Visual) -> Iterable[Opaque]:
+        """As on a shape, and the elements that say how it looks, if they say it in another way than SDF."""
+        yield from self._on_shape(visual)
+        if visual.material is None or said_by_mjcf(visual.material) is not None:
+            return
+        geom = self.file.geom(visual)
+        if geom is not None:
+            digest = digest_of(look_parts(dict(geom.attributes), self.file.asset))
+            yield annotation(LOOK_OF, attributes={"digest": digest})
+
+    def _on_shape(self, part: Shape) -> Iterable[Opaque]:
+        """The file that stands for a shape; where one without a geom is in its link: in URDF only the place tells."""
+        geom = self.file.geom(part)
+        if geom is None:
+            link = self.file.part
+            if isinstance(link, Link) and self.file.geom_name(part) is None:
+                shapes = link.visuals if isinstance(part, Visual) else link.collisions
+                place = next((index for index, each in enumerate(shapes) if each.name == part.name), None)
+                if place is not None:
+                    yield annotation(PLACE, attributes={"index": str(place)})
+            return
+        shape, file = part.geometry.shape if part.geometry else None, self.file.file_of(geom)
+        if shape is not None and file is not None and getattr(shape, "uri", None) != file:
+            kept = shape.copy(scale=None) if isinstance(shape, Mesh) else shape
+            holder = to_element(Geometry.unchecked(shape=kept), "geometry", "sdf")
+            note = annotation(SHAPE_OF, attributes={"file": file})
+            yield note.copy(element=note.element and note.element.copy(children=holder.children))
+
+    def _parts(self, part: Sensor | Light) -> Iterable[Opaque]:
+        """The elements that a sensor or light has become."""
+        parts = self.file.parts_of(part)
+        names = "\n".join(f"{each.name} {each.get('name')}" for each in parts)
+        yield annotation(PARTS, names, {"digest": digest_of(tagged(parts))})
+
+
+def _on_inertial(inertial: Inertial) -> Iterable[Opaque]:
+    """The axes of an inertia, which MJCF writes in those of the body where it has products."""
+    inertia = inertial.inertia
+    if inertia is None or inertial.pose is None or not (inertia.ixy or inertia.ixz or inertia.iyz):
+        return ()
+    turn = Transform.from_pose(inertial.pose)
+    return () if turn.is_unturned else [annotation(AXES, attributes={"rpy": _numbers(turn.rpy())})]
+
+
+def _numbers(values: Iterable[float]) -> str:
+    return " ".join(map(format_value, values))
