@@ -180,7 +180,7 @@ def _convert_document(
     kept = tuple(each for each in loaded.diagnostics if not each.is_error)
     sink = replace(loaded, diagnostics=kept).sink(strict=load_options.strict)
     if not request.carriers and request.to != "mjcf":
-        from twinform.compiler.input.mjcf.without_remainders import without_remainders  # noqa: PLC0415 - few ask for it
+        from twinform.compiler.input.mjcf.remainders import without_remainders  # noqa: PLC0415 - few ask for it
 
         document = without_remainders(document, sink)
     if request.folder is not None and isinstance(request.assets, LocalAssets) and request.assets.folder is not None:

@@ -13,11 +13,11 @@ from twinform.compiler.input.load_options import LoadOptions, unexpanded_name
 from twinform.compiler.input.mjcf.assets import AssetTable
 from twinform.compiler.input.mjcf.contact_masks import ContactMasks, touches_itself
 from twinform.compiler.input.mjcf.geom_solids import GeomSolids
-from twinform.compiler.input.mjcf.lower_actuators import efforts
 from twinform.compiler.input.mjcf.lower_bodies import TreeLowering, TreeParts
 from twinform.compiler.input.mjcf.lower_equalities import followers, lower_loop
 from twinform.compiler.input.mjcf.lower_geoms import GeomLowering
-from twinform.compiler.input.mjcf.lower_inertials import body_inertia, scale_of
+from twinform.compiler.input.mjcf.lower_inertials import MassSettings, body_inertia, scale_of
+from twinform.compiler.input.mjcf.lower_joints import efforts
 from twinform.compiler.input.mjcf.lower_lights import lower_light
 from twinform.compiler.input.mjcf.lower_option import lower_option
 from twinform.compiler.input.mjcf.lower_sensors import SiteSensor, by_site, lower_sensor
@@ -25,7 +25,6 @@ from twinform.compiler.input.mjcf.names import safe_name
 from twinform.compiler.input.mjcf.pieces import Piece, pose_of
 from twinform.compiler.input.mjcf.remainders import RemainderKeeper, in_sections, with_rest
 from twinform.compiler.input.mjcf.sections import Owners, Sections
-from twinform.compiler.input.mjcf.settings import MassSettings
 from twinform.compiler.resolve_uris import LocalAssets
 from twinform.ir import Document, Element, Format, Frame, Light, Link, Model, Opaque, Sensor, World
 from twinform.passes.carriers.annotations import MADE_NAME, WORLDBODY, annotation, with_annotation

@@ -8,12 +8,13 @@ the written element lacks are added, and what the node says wins.
 """
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from typing import TypeVar
 
 from twinform.compiler.input.mjcf.pieces import Piece
 from twinform.diagnostics import NOWHERE, DiagnosticSink, Fate, Location, Rule, rules
-from twinform.ir import Element, Node, Opaque
-from twinform.passes.carriers.carriers import NAMESPACE
+from twinform.ir import Document, Element, Node, Opaque
+from twinform.passes.carriers.carriers import NAMESPACE, without_ours
 from twinform.schemas import XmlElement
 
 MJCF = "mjcf"
@@ -168,3 +169,11 @@ def _called(piece: Piece) -> str:
 def with_rest(node: AnyNode, rest: tuple[Opaque, ...]) -> AnyNode:
     """Return the node with remainders behind its other untyped parts."""
     return node.copy(opaque=(*node.opaque, *rest)) if rest else node
+
+
+def without_remainders(document: Document, sink: DiagnosticSink) -> Document:
+    """Return the document without remainders and annotations, which the ledger calls dropped; others unchanged."""
+    if document.source is None or document.source.step != "mujoco":
+        return document
+    sink.entries[:] = [replace(each, fate=Fate.DROPPED) if each.fate is Fate.CARRIED else each for each in sink.entries]
+    return without_ours(document).copy(namespaces=())
