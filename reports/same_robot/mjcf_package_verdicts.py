@@ -11,9 +11,9 @@ from typing import Any
 from lxml import etree
 
 import twinform
+from testbed.mjcf.canonical_models import PACKAGES, load
 from testbed.mjcf.home_trips import came_home
 from testbed.mjcf.of_mjcf import Tree, differences_in_sdf, differences_in_urdf, trees_of, without_rotors
-from testbed.mjcf_models import PACKAGES, load
 from twinform.compiler.conversion import Conversion
 from twinform.compiler.request import Language
 

@@ -6,7 +6,7 @@ from reports.harness.sample import Sample
 from reports.harness.section import UNEXPLAINED, Findings, Section
 from reports.same_robot.mjcf_package_verdicts import Answer, PackageFile, Question, judge
 from testbed.markdown import first, grouped, listing, subsection
-from testbed.mjcf_models import PACKAGES, package_files
+from testbed.mjcf.canonical_models import PACKAGES, package_files
 
 KNOWN = Known.beside(__file__)
 _ABOUT = """\

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from testbed.mjcf_models import canonical, differences, load_canonical
+from testbed.mjcf.canonical_models import canonical, differences, load_canonical
 from twinform.compiler.normal_form import NormalForm
 from twinform.schemas import XmlElement
 

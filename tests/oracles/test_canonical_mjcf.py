@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 
-from testbed.mjcf_models import CASES, canonical, differences, load, load_canonical, package_files
+from testbed.mjcf.canonical_models import CASES, canonical, differences, load, load_canonical, package_files
 from twinform.diagnostics import Diagnostic, rules
 from twinform.testing import cases
 

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 import twinform
-from testbed.mjcf_models import differences, package_files
+from testbed.mjcf.canonical_models import differences, package_files
 
 mujoco: Any = pytest.importorskip("mujoco")
 

@@ -50,7 +50,7 @@ class Attaching:
         whole = deepcopy(root) if any("model" not in each.attrib for each in attachments) else None
         for attachment in attachments:
             child = self._child(attachment, root, whole, findings)
-            content = None if child is None else self._content(attachment, child, findings)
+            content = None if child is None else self._content(attachment, child)
             if child is not None and content is not None:
                 _take_in(attachment, child, content, root)
             parent = attachment.getparent()
@@ -221,7 +221,7 @@ class Attaching:
         strip_default_namespace(root)
         return root
 
-    def _content(self, attachment: XmlElement, child: XmlElement, findings: ElementFindings) -> list[XmlElement] | None:
+    def _content(self, attachment: XmlElement, child: XmlElement) -> list[XmlElement]:
         """Return what stands in the place of an attachment, with its prefix before all names of the tree."""
         prefix = attachment.get("prefix", "")
         worldbody = child.find("worldbody")

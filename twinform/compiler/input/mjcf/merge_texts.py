@@ -201,7 +201,7 @@ class _Merged:
         model = model.copy(links=links, joints=joints, frames=frames)
         if partial is None:
             return self._let_go(model, made)
-        is_static = bool(partial.static) and self._is_held(model, made)
+        is_static = bool(partial.static) and _is_held(model)
         if partial.static and not is_static:
             self._stale(f"model {model.name!r} is not static any more: something in it moves", partial)
             partial = partial.copy(static=None)
@@ -215,11 +215,6 @@ class _Merged:
                 yield without_annotation(each, WRITTEN)
             else:
                 self._stale(f"there is nothing any more that joint {each.name!r} holds", each)
-
-    def _is_held(self, model: Model, made: frozenset[str]) -> bool:
-        """Whether nothing in a model moves."""
-        held = {each.child for each in model.joints if each.type == "fixed"}
-        return all(each.name in held for each in model.links)
 
     def _let_go(self, model: Model, made: frozenset[str], *, is_static: bool = False) -> Model:
         """The model without joints that only say that it is fixed to the world, where something else says so."""
@@ -330,3 +325,9 @@ def _without_holds(model: Model) -> Model:
         )
     )
     return replace_fields(model, joints=kept)
+
+
+def _is_held(model: Model) -> bool:
+    """Whether nothing in a model moves."""
+    held = {each.child for each in model.joints if each.type == "fixed"}
+    return all(each.name in held for each in model.links)

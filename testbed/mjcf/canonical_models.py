@@ -17,7 +17,7 @@ from twinform.compiler.input.parsing import UnreadableError
 from twinform.diagnostics import Diagnostic, DiagnosticSink
 from twinform.schemas import Context, XmlElement, known_version, versions_of
 
-ROOT = Path(__file__).parents[1]
+ROOT = Path(__file__).parents[2]
 CASES = ROOT / "tests" / "cases" / "mjcf"
 PACKAGES = Path(os.environ.get("TWINFORM_MJCF") or ROOT / "out" / "mjcf" / "files")
 _NOT_COMPARED = frozenset({
