@@ -24,10 +24,11 @@ the tests of a repository set."""
 
 
 class Kind(StrEnum):
-    """What a file of the corpus is; the first two are the compiler's business."""
+    """What a file of the corpus is; the first three are the compiler's business, of which the corpus has no MJCF."""
 
     URDF = "urdf"
     SDF = "sdf"
+    MJCF = "mjcf"
     XACRO = "xacro"
     CONFIG = "model.config"
     TEMPLATE = "template"

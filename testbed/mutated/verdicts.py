@@ -11,7 +11,7 @@ from tempfile import TemporaryDirectory
 import twinform
 from testbed.corpus.files import Kind
 from testbed.mutated.mutated import Mutated
-from testbed.oracles import urdfdom
+from testbed.oracles import mujoco_refusals, urdfdom
 from twinform.compiler import as_refused
 from twinform.diagnostics import Diagnostic
 from twinform.testing.oracles import libsdformat
@@ -28,6 +28,7 @@ class Judge(StrEnum):
     LIBSDFORMAT = "libsdformat"
     URDFDOM = "urdfdom"
     URDFDOM_6 = "urdfdom 6"
+    MUJOCO = "MuJoCo"
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,6 +50,8 @@ QUESTIONS = (
 """About mutated files of the corpus."""
 OF_VERSIONS = Question(Judge.URDFDOM_6, Kind.URDF)
 """About documents of all versions of URDF."""
+OF_MJCF = Question(Judge.MUJOCO, Kind.MJCF)
+"""About mutated files of MJCF."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -127,8 +130,14 @@ def _of_urdfdom(complaints: Callable[[Path], tuple[str, ...]], paths: Sequence[P
         yield path, Opinion(not objections, objections)
 
 
+def _of_mujoco(paths: Sequence[Path]) -> Iterator[tuple[Path, Opinion]]:
+    for path, reason in mujoco_refusals.refusals(paths):
+        yield path, Opinion(not reason, (reason,) if reason else ())
+
+
 _ASKED: dict[Judge, Callable[[Sequence[Path]], Iterator[tuple[Path, Opinion]]]] = {
     Judge.LIBSDFORMAT: _of_libsdformat,
     Judge.URDFDOM: partial(_of_urdfdom, urdfdom.complaints),
     Judge.URDFDOM_6: partial(_of_urdfdom, urdfdom.complaints_of_6),
+    Judge.MUJOCO: _of_mujoco,
 }

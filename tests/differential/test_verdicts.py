@@ -8,8 +8,9 @@ from reports.harness.needs import libsdformat, urdfdom, urdfdom_6
 from reports.mistakes_found import urdf_versions
 from reports.mistakes_found.verdicts import judged, unexplained
 from testbed.corpus.files import Kind
+from testbed.mutated.mjcf_mutated import mutated_mjcf
 from testbed.mutated.mutated import mutated
-from testbed.mutated.verdicts import QUESTIONS
+from testbed.mutated.verdicts import OF_MJCF, QUESTIONS, verdicts
 from tests.profile import DEEP
 
 CHUNKS = 4
@@ -52,3 +53,14 @@ def test_every_version_of_urdf_is_judged_as_urdfdom_6_does(chunk: int) -> None:
 def test_a_number_makes_the_same_document_again() -> None:
     assert mutated(Kind.SDF, 5) == mutated(Kind.SDF, 5)
     assert mutated(Kind.SDF, 5) != mutated(Kind.SDF, 6)
+
+
+@pytest.mark.parametrize("chunk", range(CHUNKS))
+def test_every_disagreement_with_mujoco_has_a_reason(chunk: int) -> None:
+    pytest.importorskip("mujoco")
+    seeds = range(chunk * EACH, (chunk + 1) * EACH)
+    found = [*verdicts([OF_MJCF], (mutated_mjcf(seed, fetched=DEEP) for seed in seeds))]
+    assert list(map(str, unexplained(found))) == []
+    assert {(verdict.accepted, verdict.opinion.accepts) for verdict in found} >= {(True, True), (False, False)}
+    unplaced = [one for verdict in found for one in verdict.findings if one.is_error and not one.location.line]
+    assert unplaced == []

@@ -17,8 +17,8 @@ _IMPLIED = {("worldbody", ""): ("world", "fixed"), **{("joint", name): kinds for
 _WITH_HALF_SIZES = frozenset({"geom", "hfield"})
 COMPUTED = frozenset(
     {
-        "axis", "axisangle", "density", "diaginertia", "dir", "euler", "fovy", "fromto", "fullinertia", "gravity",
-        "mass", "pos", "quat", "range", "refpos", "refquat", "size", "springref", "xyaxes", "zaxis",
+        "axis", "axisangle", "cutoff", "density", "diaginertia", "dir", "euler", "fovy", "fromto", "fullinertia",
+        "gravity", "mass", "pos", "quat", "range", "refpos", "refquat", "size", "springref", "xyaxes", "zaxis",
     }
 )  # fmt: skip
 """Attributes whose numbers are in other units or frames in SDF and URDF, or of which others are computed."""

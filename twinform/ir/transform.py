@@ -172,9 +172,9 @@ def _from_quaternion(quaternion: Quaternion) -> Matrix3:
 
 
 def _unit(quaternion: Quaternion) -> Quaternion:
-    """The quaternion with length one; no rotation where it has no length."""
+    """The quaternion with length one; no rotation where it has no length, or is not of numbers."""
     length = math.hypot(*quaternion)
-    if length == 0.0:
+    if length == 0.0 or not all(map(math.isfinite, quaternion)):
         return (0.0, 0.0, 0.0, 1.0)
     if not _TINY < length < _HUGE:
         exponent = common_exponent(quaternion)

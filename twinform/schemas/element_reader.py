@@ -179,7 +179,8 @@ class ElementReader:
         """Read an attribute that the table does not have."""
         if name[0] == "{":
             messages.prefixed_attribute(context, element, name)
-        if name in _OF_SCHEMAS or (name[0] != "{" and not self._free):
+        is_prefixed = name[0] == "{" and not messages.knows_no_prefixes(context, element)
+        if name in _OF_SCHEMAS or not (is_prefixed or self._free):
             messages.unknown_attribute(context, element, name, self._attributes.rows, self._children.rows)
         if self._keep:
             keep_attribute(element, node, self._at, context, (name, text))
@@ -233,7 +234,8 @@ class ElementReader:
         if self._content is not None:
             keep_content(child, node, self._content, context)
             return
-        if not self._free and (self._read_text is not None or str(child.tag)[0] != "{"):
+        is_plain = str(child.tag)[0] != "{" or messages.knows_no_prefixes(context, child)
+        if not self._free and (self._read_text is not None or is_plain):
             messages.unknown_element(context, child, self._children.rows, self._attributes.rows, self._once)
         elif not self._free:
             messages.prefixed_element(context, child)

@@ -128,6 +128,11 @@ def _is_refused(context: Context, around: Sequence[str]) -> bool:
 _UNCHECKED = frozenset({"frame", "replicate"})
 
 
+def knows_no_prefixes(context: Context, element: XmlElement) -> bool:
+    """Tell whether a prefix makes no name an exception: MuJoCo takes one at the root alone (asked of 4.0.0)."""
+    return context.format == "mjcf" and element.getparent() is not None
+
+
 def _around(element: XmlElement) -> list[str]:
     """List the names of the elements around one, the nearest first."""
     return [str(each.tag) for each in element.iterancestors()]

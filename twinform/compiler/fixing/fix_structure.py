@@ -128,6 +128,9 @@ def _repeated_element(site: FindingSite) -> Fix | None:
 
 def _blank_value(site: FindingSite) -> Fix | None:
     """Write the default, or the value of an attribute as URDF has it, such as `<mass value="1"/>`."""
+    _, is_attribute, name = site.finding.location.path.rpartition("/@")
+    if is_attribute:
+        return safe(f"Delete {name!r}", site.edit.remove_attribute(site.element, name))
     row = site.file.row_of(site.element)
     if row is None or len(site.element):
         return None

@@ -345,6 +345,10 @@ def read_document(
     if format_ == "urdf":
         report_tabbed_numbers(text, sink)
     context = Context(sink, sink.file, format_, declared_version(root, format_, sink))
+    if format_ == "mjcf" and (b'""' in text or b"''" in text or b'" "' in text):
+        from twinform.compiler.input.mjcf.blank_numbers import leave_blank_numbers_out  # noqa: PLC0415 - few files
+
+        leave_blank_numbers_out(root, context)
     # The XSD is asked before the tree is read, so that the reader need not look for stray text and
     # the like in what the XSD accepts.
     errors = refusals(root, context, engine)

@@ -18,7 +18,7 @@ from typing import Any, ClassVar
 
 from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import STALE_CARRIER
-from twinform.ir import Color, Element, Format, Frame, Joint, Link, Model, Visual
+from twinform.ir import Collision, Color, Element, Format, Frame, Joint, Light, Link, Model, Sensor, Visual
 from twinform.ir.node import NOT_CONTENT
 from twinform.passes.carriers.annotations import (
     AnyNode,
@@ -196,10 +196,10 @@ def _old_name(found: Element) -> str:
     return found.get("was") or found.text or ""
 
 
-def source_name(node: Link | Joint | Frame) -> str:
+def source_name(node: Link | Joint | Frame | Collision | Visual | Light | Sensor) -> str:
     """The name that a part had in the source, where SDF could not have it: the annotated one, or else its own."""
     found = find_annotation(node, NAME)
-    return _old_name(found) if found and found.get("instead_of") == node.name else node.name
+    return _old_name(found) if found and found.get("instead_of") == node.name else node.name or ""
 
 
 def with_old_name(node: AnyNode, name: str) -> AnyNode:

@@ -14,6 +14,7 @@ _MOST_FREEDOMS = 6
 # mjMINVAL: what MuJoCo takes for zero
 _LEAST = 1e-15
 _ROUNDING = 1e-12
+_LEAST_AXIS = 1e-7
 _WEIGHTLESS_SHAPES = frozenset({"plane", "hfield"})
 
 
@@ -31,6 +32,19 @@ def check_bodies(root: XmlElement, findings: ElementFindings) -> None:
             _check_joints(body, findings)
         for body in reversed(bodies):
             mass.check(body)
+        for plane in _moving_planes(worldbody):
+            message = "a plane can only be in a body that does not move"
+            findings.report(rules.MOVING_PLANE, plane, message, "@type", found="plane", refused=True)
+
+
+def _moving_planes(worldbody: XmlElement) -> Iterator[XmlElement]:
+    """Yield the planes in bodies that have a joint, or are in one that has."""
+    waiting = [(each, False) for each in worldbody.iterchildren("body")]
+    while waiting:
+        body, moves = waiting.pop()
+        moves = moves or bool(joints_of(body))
+        waiting += [(each, moves) for each in body.iterchildren("body")]
+        yield from (each for each in body.iterchildren("geom") if moves and each.get("type") == "plane")
 
 
 def joints_of(body: XmlElement) -> list[tuple[XmlElement, str]]:
@@ -66,7 +80,7 @@ def _check_joints(body: XmlElement, findings: ElementFindings) -> None:
 
 def _check_joint(joint: XmlElement, kind: str, findings: ElementFindings) -> None:
     axis = numbers_of(joint, "axis", count=3)
-    if kind in {"hinge", "slide"} and axis is not None and max(map(abs, axis)) < _LEAST * 10:
+    if kind in {"hinge", "slide"} and axis is not None and math.hypot(*axis) <= _LEAST_AXIS:
         findings.report(rules.ZERO_AXIS, joint, "the axis of the joint has no length", "@axis", found=joint.get("axis"))
     found = numbers_of(joint, "range", count=2)
     if kind == "ball" and joint.get("limited") == "true" and found is not None and found[0] != 0:

@@ -73,6 +73,11 @@ def _check_actuator(actuator: XmlElement, findings: ElementFindings) -> None:
     if not any(name in actuator.attrib for name in _TARGETS):
         message = f"<{actuator.tag}> drives nothing: it has no joint, tendon, site or body"
         findings.report(rules.MISSING_ATTRIBUTE, actuator, message, expected="@joint")
+    reach = numbers_of(actuator, "lengthrange", (0.0, 0.0), count=2) or (0.0, 0.0)
+    if any(reach) and not reach[0] < reach[1]:
+        message = f"'lengthrange' goes from {reach[0]:g} to {reach[1]:g}; the first has to be lower"
+        text = actuator.get("lengthrange")
+        findings.report(rules.LOWER_ABOVE_UPPER, actuator, message, "@lengthrange", found=text, refused=True)
     crank = numbers_of(actuator, "cranklength", (0.0,), count=1) or (0.0,)
     if "slidersite" in actuator.attrib and crank[0] <= 0:
         message = "an actuator at a crank needs a 'cranklength' above 0"
@@ -117,6 +122,9 @@ def _check_equality(equality: XmlElement, kinds: Mapping[str, str], findings: El
         if kind is not None and kind not in _SCALAR:
             message = f"only hinges and slides can be coupled, and this joint is of type {kind!r}"
             _report_unfit(equality, name, message, findings)
+    if equality.tag == "connect" and "site1" not in equality.attrib and "anchor" not in equality.attrib:
+        message = "<connect> of bodies needs an 'anchor'"
+        findings.report(rules.MISSING_ATTRIBUTE, equality, message, expected="@anchor")
     if equality.tag in {"connect", "weld"} and equality.get("body1") == "world" and "body2" not in equality.attrib:
         _report_unfit(equality, "body1", "the world cannot be held to itself", findings)
 
@@ -136,7 +144,11 @@ def _check_tendon(tendon: XmlElement, kinds: Mapping[str, str], findings: Elemen
     if len(path) < least:
         what = "two sites" if least == 2 else "one joint"
         findings.report(rules.MISSING_PART, tendon, f"<{tendon.tag}> needs at least {what} in it", expected=what)
+    known: set[str | None] = set()
     for place, each in enumerate(path):
+        if tendon.tag == "fixed" and each.get("joint") in known:
+            _report_unfit(each, "joint", f"the joint {each.get('joint')!r} is in this tendon already", findings)
+        known.add(each.get("joint"))
         kind = kinds.get(each.get("joint", ""))
         if kind is not None and kind not in _SCALAR:
             message = f"a tendon takes hinges and slides, and this joint is of type {kind!r}"
@@ -194,6 +206,11 @@ def _check_asset(asset: XmlElement, findings: ElementFindings) -> None:
         _check_texture(asset, findings)
     if tag == "mesh" and not any(name in asset.attrib for name in ("file", "vertex", "builtin")) and not len(asset):
         findings.report(rules.MISSING_ATTRIBUTE, asset, "<mesh> has neither a file nor vertices", expected="@file")
+    for name in ("vertex", "face") if tag == "mesh" else ():
+        count = len(numbers_of(asset, name, ()) or ())
+        if count % 3:
+            message = f"{name!r} of <mesh> has {count} numbers, and every three of them are one"
+            findings.report(rules.INVALID_VALUE, asset, message, f"@{name}")
 
 
 def _check_texture(texture: XmlElement, findings: ElementFindings) -> None:

@@ -21,15 +21,14 @@ from twinform.compiler.input.mjcf.lower_joints import efforts
 from twinform.compiler.input.mjcf.lower_lights import lower_light
 from twinform.compiler.input.mjcf.lower_option import lower_option
 from twinform.compiler.input.mjcf.lower_sensors import SiteSensor, by_site, lower_sensor
-from twinform.compiler.input.mjcf.names import safe_name
+from twinform.compiler.input.mjcf.names import name_mark, safe_name
 from twinform.compiler.input.mjcf.pieces import Piece, pose_of
 from twinform.compiler.input.mjcf.remainders import RemainderKeeper, in_sections, with_rest
 from twinform.compiler.input.mjcf.sections import Owners, Sections
 from twinform.compiler.resolve_uris import LocalAssets
-from twinform.ir import Document, Element, Format, Frame, Light, Link, Model, Opaque, Sensor, World
+from twinform.ir import Document, Element, Format, Frame, Light, Link, Model, Sensor, World
 from twinform.passes.carriers.annotations import MADE_NAME, WORLDBODY, annotation, with_annotation
 from twinform.passes.carriers.carriers import NAMESPACE, PREFIX
-from twinform.passes.legalise.changed_names import NAME
 from twinform.passes.legalise.to_mjcf.kept_mjcf import ROOT
 from twinform.passes.shared.mesh_solids import Meshes
 from twinform.passes.shared.nodes import reserve_name
@@ -62,7 +61,7 @@ class FileLowering:
         settings = MassSettings.of(self.sections.of("compiler"))
         meshes = Meshes(LocalAssets(load_options.search, Path(unexpanded_name(context.file))))
         solids = GeomSolids(self.assets, meshes, context.sink)
-        bodies = [each for tree in self.trees for each in tree.walk() if each.tag == "body"]
+        bodies = [each for tree in self.trees for each in tree.bodies()]
         self.inertias = {each: body_inertia(each, settings, solids) for each in bodies}
         self.scale = scale_of(settings, [each.solid.mass for each in self.inertias.values()])
         self.followers = followers(self.sections.inside("equality"))
@@ -113,7 +112,7 @@ class FileLowering:
             links=tuple(parts.links),
             joints=tuple(parts.joints),
             frames=tuple(parts.frames),
-            opaque=_name_mark(name, given),
+            opaque=name_mark(name, given),
             source=tree.source,
         )
         left = self._left_of(number)
@@ -134,7 +133,7 @@ class FileLowering:
             joint = lower_loop(piece, name, links, self.keeper)
             if joint is not None:
                 made = lowering.names.make(safe_name(name))
-                marks = _name_mark(piece.name, made)
+                marks = name_mark(piece.name, made)
                 parts.joints.append(joint.copy(name=made, opaque=(*marks, *joint.opaque)))
 
     def _add_sensors(self, number: int, parts: TreeParts) -> None:
@@ -231,18 +230,19 @@ class FileLowering:
             models=(*ground, *models),
             lights=tuple(lights),
             frames=frames,
-            opaque=(*_name_mark(name, given), *settings.opaque, *rest),
+            opaque=(*name_mark(name, given), *settings.opaque, *rest),
             source=self.root.source,
         )
 
     def _frames(self, taken: set[str]) -> Iterable[Frame]:
+        """Yield the sites of the world, called otherwise than what else is in it."""
         for site in self.sections.inside(WORLDBODY):
             if site.tag == "site" and site.name is not None:
                 name = site.take("name") or ""
                 pose = pose_of(site.transform(), source=site.source)
                 rest = self.keeper.rest(site, is_marked=True)
                 given = reserve_name(safe_name(name), taken)
-                marks = _name_mark(name, given)
+                marks = name_mark(name, given)
                 yield Frame.unchecked(name=given, pose=pose, opaque=(*marks, *rest), source=site.source)
 
     def _ground(self) -> tuple[Model, ...]:
@@ -264,10 +264,3 @@ class FileLowering:
 
 def _with_sensor(link: Link, sensor: Sensor) -> Link:
     return link.copy(sensors=(*link.sensors, sensor))
-
-
-def _name_mark(name: str | None, given: str) -> tuple[Opaque, ...]:
-    """Return the annotation of a name that MJCF does not have, or has otherwise."""
-    if name is None:
-        return (annotation(MADE_NAME, given),)
-    return () if name == given else (annotation(NAME, name, {"instead_of": given}),)

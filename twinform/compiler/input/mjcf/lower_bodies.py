@@ -93,8 +93,7 @@ class TreeLowering:
 
     def lower(self) -> TreeParts:
         """Build the links, joints and frames of all bodies, parents first."""
-        bodies = [each for each in self.root.walk() if each.tag == "body"]
-        self._name(bodies)
+        self._name([*self.root.bodies()])
         waiting = [_Placed(self.root, None)]
         while waiting:
             here = waiting.pop()

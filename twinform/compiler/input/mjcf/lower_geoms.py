@@ -12,10 +12,11 @@ from twinform.compiler.input.mjcf.assets import AssetTable
 from twinform.compiler.input.mjcf.contact_masks import Bits, ContactMasks
 from twinform.compiler.input.mjcf.lower_materials import is_invisible, lower_material
 from twinform.compiler.input.mjcf.lower_shapes import PlacedShape, lower_shape
+from twinform.compiler.input.mjcf.names import name_mark, safe_name
 from twinform.compiler.input.mjcf.pieces import Piece, pose_of
 from twinform.compiler.input.mjcf.remainders import RemainderKeeper, holder
 from twinform.ir import Collision, Element, Geometry, Opaque, Pose, Surface, Visual
-from twinform.passes.carriers.annotations import MADE_NAME, SAME_GEOM, annotation
+from twinform.passes.carriers.annotations import SAME_GEOM, annotation
 from twinform.passes.shared.nodes import reserve_name
 
 _SHOWN = 3
@@ -41,8 +42,8 @@ class _Named(NamedTuple):
 
     @property
     def marks(self) -> tuple[Opaque, ...]:
-        """The annotation of a name that was made."""
-        return () if self.geom.name else (annotation(MADE_NAME, self.name),)
+        """The annotation of a name that was made, or changed."""
+        return name_mark(self.geom.name, self.name)
 
     @property
     def pose(self) -> Pose | None:
@@ -66,7 +67,8 @@ class GeomLowering(NamedTuple):
         """Build the shapes of a body; the masses of its geoms are taken by now."""
         geoms = tuple(body.all_of("geom"))
         hides = any(not Bits.of(each).touches and _group(each) in {1, 2} for each in geoms)
-        names, numbers = {each.name for each in geoms if each.name}, dict[str, int]()
+        names = {each.name for each in geoms if each.name and safe_name(each.name) == each.name}
+        numbers = dict[str, int]()
         collisions: list[Collision] = []
         visuals: list[Visual] = []
         rest: list[Element] = []
@@ -78,7 +80,9 @@ class GeomLowering(NamedTuple):
                 continue
             touches = Bits.of(geom).touches
             unnamed = f"{link}_{'collision' if touches else 'visual'}"
-            one = _Named(geom, geom.take("name") or reserve_name(unnamed, names, numbers), placed, touches)
+            written = geom.take("name") or ""
+            name = written if written in names else reserve_name(safe_name(written or unnamed), names, numbers)
+            one = _Named(geom, name, placed, touches)
             is_shown = not touches or self._is_shown(geom, hides=hides)
             if is_shown:
                 visuals.append(self._visual(one))

@@ -2,6 +2,7 @@
 
 import math
 
+from twinform.compiler.input.mjcf.names import name_mark, safe_name
 from twinform.compiler.input.mjcf.pieces import Numbers, Piece, placed_at, pose_of
 from twinform.compiler.input.mjcf.remainders import RemainderKeeper
 from twinform.ir import Color, Element, Light, Opaque, Pose, Sensor
@@ -33,17 +34,23 @@ def lower_light(piece: Piece, name: str, keeper: RemainderKeeper) -> Light | Non
         piece.take(attribute)
     x, y, z = piece.numbers("dir") or _DIRECTION
     at = placed_at(piece.numbers("pos"))
+    given = safe_name(name)
     return Light.unchecked(
-        name=name,
+        name=given,
         type=_TYPES[kind],
         pose=pose_of(at, source=piece.source),
         cast_shadows=piece.is_true("castshadow", default=True),
         diffuse=_color(piece.numbers("diffuse") or _DIFFUSE),
         specular=_color(piece.numbers("specular") or _SPECULAR),
         direction=(x, y, z),
-        opaque=(*_spot(piece, kind), *keeper.rest(piece)),
+        opaque=(*_renamed(name, given), *_spot(piece, kind), *keeper.rest(piece)),
         source=piece.source,
     )
+
+
+def _renamed(name: str, given: str) -> tuple[Opaque, ...]:
+    """Return the annotation of a name that SDF cannot hold; whoever made up a name says that."""
+    return name_mark(name, given) if name != given else ()
 
 
 def _type_of(piece: Piece) -> str:
@@ -89,10 +96,12 @@ def lower_camera(piece: Piece, name: str, keeper: RemainderKeeper) -> Sensor | N
         Element.unchecked(name="horizontal_fov", text=format_value(angle)),
         Element.unchecked(name="image", children=size),
     )
+    given = safe_name(name)
+    image = Opaque.unchecked(element=Element.unchecked(name="camera", children=inside))
     return Sensor.unchecked(
-        name=name,
+        name=given,
         type="camera",
         pose=pose_of(piece.transform().compose(_LOOKS_ALONG), source=piece.source),
-        opaque=(Opaque.unchecked(element=Element.unchecked(name="camera", children=inside)), *keeper.rest(piece)),
+        opaque=(*_renamed(name, given), image, *keeper.rest(piece)),
         source=piece.source,
     )

@@ -7,9 +7,9 @@ their names. A changed name stands in `<tf:name>`, a made one in `<tf:made-name>
 from typing import TypeVar
 
 from twinform.compiler.input.mjcf.pieces import Piece
-from twinform.ir import Node
+from twinform.ir import Node, Opaque
 from twinform.ir.frames import WORLD
-from twinform.passes.carriers.annotations import MADE_NAME, with_annotation
+from twinform.passes.carriers.annotations import MADE_NAME, annotation, with_annotation
 from twinform.passes.legalise.changed_names import NAME
 from twinform.passes.shared.nodes import reserve_name
 
@@ -52,3 +52,10 @@ def safe_name(name: str) -> str:
     """Return a name that SDF can hold: without `::`, and not one of those that it keeps for itself."""
     safe = name.replace("::", "__").strip() or "unnamed"
     return f"{safe.strip('_')}_" if safe.startswith("__") and safe.endswith("__") else safe
+
+
+def name_mark(name: str | None, given: str) -> tuple[Opaque, ...]:
+    """Return the annotation of a name that MJCF does not have, or has otherwise."""
+    if name is None:
+        return (annotation(MADE_NAME, given),)
+    return () if name == given else (annotation(NAME, name, {"instead_of": given}),)

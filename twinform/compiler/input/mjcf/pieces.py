@@ -96,6 +96,14 @@ class Piece:
         """Return the first element in it that has this name."""
         return next(self.all_of(tag), None)
 
+    def bodies(self) -> "Iterator[Piece]":
+        """Yield this body and all bodies in it, outer ones first, but not what stands where no body can be."""
+        waiting: list[Piece] = [self]
+        while waiting:
+            here = waiting.pop()
+            yield here
+            waiting.extend(reversed(tuple(here.all_of("body"))))
+
     def walk(self) -> "Iterator[Piece]":
         """Yield this element and all below it, outer elements first."""
         waiting: list[Piece] = [self]

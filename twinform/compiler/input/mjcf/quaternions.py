@@ -66,9 +66,11 @@ def from_axis_angle(axis: Vector, angle: float) -> Quaternion:
     """Return the rotation about an axis of any length, by an angle in radians.
 
     Raises:
-        UnturnableError: the axis has no length.
+        UnturnableError: the axis has no length, or the angle no end.
     """
     x, y, z = _direction(axis, "the axis of axisangle")
+    if not math.isfinite(angle):
+        raise UnturnableError("an angle is not finite")
     sine = math.sin(angle / 2)
     return (math.cos(angle / 2), x * sine, y * sine, z * sine)
 

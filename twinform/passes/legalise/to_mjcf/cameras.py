@@ -8,6 +8,7 @@ import math
 
 from twinform.ir import Element, Pose, Sensor
 from twinform.ir.transform import Transform
+from twinform.passes.legalise.changed_names import source_name
 from twinform.passes.legalise.to_mjcf.elements import Value, make_element, placement
 from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements, with_kept
 from twinform.passes.legalise.to_mjcf.said_parts import child_count, child_number, child_vector
@@ -62,7 +63,7 @@ def vertical_view(horizontal: float, width: int, height: int) -> float:
 def _name(sensor: Sensor, camera: Element) -> str:
     """The name of the sensor, and with it that of the camera where a sensor has several."""
     own = camera.get("name") if sensor.type == "multicamera" else None
-    return f"{sensor.name}_{own}" if own else sensor.name or "camera"
+    return f"{sensor.name}_{own}" if own else source_name(sensor) or "camera"
 
 
 def _place(context: MjcfContext, camera: Element, body: Body, sensor: Transform) -> Transform:

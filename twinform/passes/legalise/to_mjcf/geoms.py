@@ -26,6 +26,7 @@ from twinform.ir.node import Vector3
 from twinform.ir.pose import Pose
 from twinform.ir.transform import Transform
 from twinform.passes.carriers.annotations import SAME_GEOM, find_annotation
+from twinform.passes.legalise.changed_names import source_name
 from twinform.passes.legalise.to_mjcf.assets import height_field, mesh_asset, vector_in
 from twinform.passes.legalise.to_mjcf.contacts import touch_of
 from twinform.passes.legalise.to_mjcf.elements import ENDLESS, GRID, Attributes, Value, make_element, placement
@@ -90,7 +91,7 @@ def _group(context: MjcfContext, part: Visual | Collision, group: int) -> list[t
 
 
 def _geom(context: MjcfContext, body: Body, part: AnyPart, shape: Solid, more: Attributes) -> Element:
-    name = context.name_in(body, "geom", part.name, part)
+    name = context.name_in(body, "geom", source_name(part), part)
     if name is not None:
         context.written_geoms[id(part)] = name
         context.note_made_name("geom", part)

@@ -6,6 +6,7 @@ from twinform.ir import Element, Light, World
 from twinform.ir.frames import WORLD
 from twinform.ir.node import Vector3
 from twinform.ir.transform import Transform, rounded
+from twinform.passes.legalise.changed_names import source_name
 from twinform.passes.legalise.to_mjcf.elements import Attributes, Value, make_element, position
 from twinform.passes.legalise.to_mjcf.kept_mjcf import with_kept
 from twinform.passes.legalise.to_mjcf.said_parts import (
@@ -39,7 +40,7 @@ def world_lights(context: MjcfContext) -> list[Element]:
 
 
 def _light(context: MjcfContext, light: Light, place: Transform) -> Element:
-    name = context.name("light", light.name, light.location)
+    name = context.name("light", source_name(light), light.location)
     context.note_made_name("light", light)
     return with_kept(make_element("light", [("name", name), *light_attributes(light, place)], (), light.source), light)
 
