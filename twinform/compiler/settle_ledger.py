@@ -6,7 +6,7 @@ the place has.
 """
 
 from collections import defaultdict
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
 from itertools import islice
 
@@ -25,7 +25,7 @@ _Place = tuple[int, str, str]
 
 def settle(entries: Sequence[LedgerEntry], root: XmlElement) -> tuple[LedgerEntry, ...]:
     """Return the entries in their order, with weights that together count each part of the tree at most once."""
-    elements = _elements_by_place(root)
+    elements = _elements_by_place(root, {entry.location.line for entry in entries})
     taken: set[_Part] = set()
     # What is taken stays so: the next entry about a place goes on where the one before it stopped. All the elements
     # of a file on one line are at few places.
@@ -50,13 +50,15 @@ def bare_path(path: str) -> str:
     return _PREDICATE.sub("", path)
 
 
-def _elements_by_place(root: XmlElement) -> dict[tuple[int, str], list[XmlElement]]:
-    """Return the elements of a tree by their lines and paths without names."""
+def _elements_by_place(root: XmlElement, lines: Collection[int]) -> dict[tuple[int, str], list[XmlElement]]:
+    """Return the elements in some lines of a tree, by their lines and paths without names."""
     found: dict[tuple[int, str], list[XmlElement]] = defaultdict(list)
     stack = [(root, f"/{root.tag}")]
     while stack:
         element, path = stack.pop()
-        found[element.sourceline or 0, path].append(element)
+        line = element.sourceline or 0
+        if line in lines:
+            found[line, path].append(element)
         stack += [(child, f"{path}/{child.tag}") for child in element if isinstance(child.tag, str)]
     return found
 
