@@ -76,3 +76,24 @@ def test_files_in_several_folders_are_kept_the_same(run: Run, robot: Path) -> No
         assert "../../meshes/ball.obj" in text
     assert run("sync", *files, "--check").exit_code == 0
     assert run("convert", robot, "--into", "mjcf/deep/r.xml").stderr.endswith("stays as it is\n")
+
+
+SKY = """<mujoco model="r"><asset><texture name="sky" type="skybox" file="sky.png"/></asset><worldbody>
+<body name="base"><geom name="ball" size="1"/></body></worldbody></mujoco>"""
+
+
+def test_what_only_mjcf_has_leads_to_the_same_file_too(run: Run, robot: Path) -> None:
+    Path("urdf/sky.png").touch()
+    Path("urdf/r.xml").write_text(SKY)
+    assert run("convert", "urdf/r.xml", "-o", "out/r.sdf").exit_code == 0
+    assert 'file="../urdf/sky.png"' in Path("out/r.sdf").read_text()
+    assert run("convert", "out/r.sdf", "--to", "mjcf", "-o", "out/deep/r.xml").exit_code == 0
+    assert 'file="../../urdf/sky.png"' in Path("out/deep/r.xml").read_text()
+
+
+def test_a_package_takes_what_only_mjcf_has_along(run: Run, robot: Path) -> None:
+    Path("urdf/sky.png").touch()
+    Path("urdf/r.xml").write_text(SKY)
+    assert run("package", "urdf/r.xml", "-o", "out/r", "--kind", "mujoco").exit_code == 0
+    assert Path("out/r/assets/sky.png").is_file()
+    assert 'file="assets/sky.png"' in Path("out/r/model.xml").read_text()

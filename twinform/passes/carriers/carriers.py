@@ -41,6 +41,8 @@ from twinform.schemas import XmlElement, node_xml, read_element
 NAMESPACE = "urn:twinform:1"
 PREFIX = "tf"
 _OURS = f"{{{NAMESPACE}}}"
+KEPT = f"{_OURS}mjcf"
+"""The element in which a node keeps what only MJCF says of it."""
 
 Attributes = tuple[tuple[str, str], ...]
 

@@ -27,6 +27,7 @@ from twinform.ir import (
 )
 from twinform.ir.record import Sourced
 from twinform.ir.rewrite import union_of
+from twinform.passes.carriers.carriers import KEPT
 from twinform.passes.shared.nodes import map_elements
 
 Kind = Literal["mesh", "texture", "include"]
@@ -55,7 +56,9 @@ _INNER_ELEMENTS = frozenset(
     {("skin", "filename"), ("animation", "filename"), ("projector", "texture"), ("texture", "diffuse"),
      ("texture", "normal")}
 )  # fmt: skip
-_MAY_HOLD = _ELEMENTS | {name for _, name in _INNER_ELEMENTS}
+_MAY_HOLD = _ELEMENTS | {name for _, name in _INNER_ELEMENTS} | {KEPT}
+FILES_OF_MJCF = ("file", "fileright", "fileleft", "fileup", "filedown", "filefront", "fileback")
+"""Attributes of what only MJCF has that are paths: textures of skies, skins, and meshes of no shape."""
 _HOLDERS: dict[str, Kind] = {"mesh": "mesh", "skin": "mesh", "animation": "mesh", "include": "include"}
 """The use of a file by the element that holds its URI."""
 
@@ -104,6 +107,8 @@ def _map_element_uris(element: Element, change: Change, holder: Sourced, inside:
     name, text, children = element.name, element.text, element.children
     if name == "plugin":
         return element
+    if name == KEPT:
+        return _map_files_of_mjcf(element, change, holder)
     if element.source:
         holder = element
     # The map of a shader is the name of a texture, which OGRE looks for in the folders of all scripts.
@@ -115,6 +120,20 @@ def _map_element_uris(element: Element, change: Change, holder: Sourced, inside:
     if text == element.text and children == element.children:
         return element
     return element.copy(text=text, children=children)
+
+
+def _map_files_of_mjcf(element: Element, change: Change, holder: Sourced) -> Element:
+    """The element of MJCF with its paths changed, and with those in it."""
+    place = element if element.source else holder
+    kind: Kind = "texture" if element.name in {"texture", "hfield"} else "mesh"
+    attributes = tuple(
+        (key, change(value, kind, place.location) if key in FILES_OF_MJCF and value.strip() else value)
+        for key, value in element.attributes
+    )
+    children = tuple([_map_files_of_mjcf(child, change, place) for child in element.children])
+    if attributes == element.attributes and children == element.children:
+        return element
+    return element.copy(attributes=attributes, children=children)
 
 
 ROS, GAZEBO = "package", "model"

@@ -8,21 +8,13 @@ from posixpath import basename, isabs, join
 from twinform.compiler.input.mjcf.element_findings import ElementFindings, set_line
 from twinform.dataclass import dataclass
 from twinform.diagnostics import rules
+from twinform.passes.shared.document_uris import FILES_OF_MJCF
 from twinform.schemas import XmlElement
 
 APPLIED = ("autolimits", "coordinate", "eulerseq", "meshdir", "texturedir", "assetdir", "strippath")
 """Attributes of which nothing is left to do in canonical MJCF."""
 _USUAL_SEQUENCE = "xyz"
 _MESH_FILES = frozenset({"mesh", "hfield", "skin", "flexcomp"})
-_TEXTURE_FILES = (
-    "file",
-    "fileright",
-    "fileleft",
-    "fileup",
-    "filedown",
-    "filefront",
-    "fileback",
-)
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,7 +48,7 @@ class CompilerSettings:
         if tag in _MESH_FILES:
             self._resolve(element, "file", self.mesh_folder)
         elif tag == "texture":
-            for name in _TEXTURE_FILES:
+            for name in FILES_OF_MJCF:
                 self._resolve(element, name, self.texture_folder)
 
     def _resolve(self, element: XmlElement, name: str, folder: str) -> None:

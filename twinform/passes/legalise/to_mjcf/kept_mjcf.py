@@ -11,10 +11,9 @@ from collections.abc import Sequence
 
 from twinform.ir import Element, Joint, Node
 from twinform.ir.transform import rounded
-from twinform.passes.carriers.carriers import NAMESPACE
+from twinform.passes.carriers.carriers import KEPT
 from twinform.schemas import format_value
 
-KEPT = f"{{{NAMESPACE}}}mjcf"
 ROOT = "mujoco"
 """The section by which a model or world says that it was read of MJCF: `<tf:mjcf><mujoco/></tf:mjcf>`."""
 _FORCE = ("actuatorfrclimited", "actuatorfrcrange")

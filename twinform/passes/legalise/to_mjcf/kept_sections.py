@@ -8,8 +8,10 @@ from collections.abc import Mapping
 
 from twinform.ir import Element
 from twinform.ir.scopes import SCOPE
+from twinform.passes.legalise.to_mjcf.assets import file_path
 from twinform.passes.legalise.to_mjcf.kept_mjcf import SINGLE, kept_elements, merged
 from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext
+from twinform.passes.shared.document_uris import FILES_OF_MJCF
 
 _ONES: Mapping[str, str] = {
     **dict.fromkeys(("joint", "joint1", "joint2", "jointinparent"), "joint"),
@@ -55,7 +57,8 @@ def add_kept_sections(context: MjcfContext) -> None:
                 context.add(kept.name, kept)
                 continue
             for part in kept.children:
-                sections.add(kept.name, _renamed(part, names, scope))
+                renamed = _renamed(part, names, scope)
+                sections.add(kept.name, _with_paths(context, renamed) if kept.name == "asset" else renamed)
     for scope, reading in context.kept_readings:
         sections.add("sensor", _renamed(reading, names, scope))
 
@@ -80,6 +83,12 @@ class _Sections:
             return
         self._places[key] = len(there)
         there.append(element)
+
+
+def _with_paths(context: MjcfContext, asset: Element) -> Element:
+    """The asset with paths from the folder of the document, which another format may have as URIs."""
+    paths = {key: file_path(context, value, asset.location) for key, value in asset.attributes if key in FILES_OF_MJCF}
+    return asset.copy(attributes=tuple((key, paths.get(key, value)) for key, value in asset.attributes))
 
 
 def _renamed(element: Element, names: _Names, scope: str) -> Element:
