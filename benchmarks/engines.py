@@ -129,7 +129,7 @@ def _packaged(package: str) -> str:
     return done.stdout.strip()
 
 
-FLOOR, LOAD, TO_SDF, TO_URDF = map(_own, ("floor", "load", "to SDF", "to URDF"))
+FLOOR, LOAD, TO_SDF, TO_URDF, TO_MJCF = map(_own, ("floor", "load", "to SDF", "to URDF", "to MJCF"))
 LIBSDFORMAT = _program("libsdformat", _LIBSDFORMAT)
 LIBSDFORMAT_ONCE = _program("libsdformat, its description read before", _LIBSDFORMAT, "--once")
 READERS = (

@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Literal
 
 import twinform
 from testbed import robots
@@ -51,13 +52,13 @@ def known() -> Iterator[Robot]:
             yield Robot(name, path, path.read_bytes().count(b"<link "))
 
 
-def in_sdf(robot: Robot) -> Path:
-    """The robot in SDF, as the compiler converts it by default.
+def converted(robot: Robot, to: Literal["sdf", "mjcf"]) -> Path:
+    """The robot in another language, as the compiler converts it by default.
 
     Raises:
         CompileError: the compiler refuses it.
     """
-    return kept(FOLDER / f"{robot.path.stem}.sdf", twinform.convert(robot.path, to="sdf").text)
+    return kept(FOLDER / f"{robot.path.stem}.{to}", twinform.convert(robot.path, to=to).text)
 
 
 def corpus(every: int, *kinds: Kind) -> Sequence[CorpusFile]:

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from benchmarks import commands, comments, converters, inputs, real_files, scale, sizes, stages
+from benchmarks import commands, comments, converters, inputs, mjcf, real_files, scale, sizes, stages
 from benchmarks.engines import PEERS
 from benchmarks.inputs import Robot, generated
 from benchmarks.targets import Part, at_most
@@ -39,6 +39,7 @@ def measured_parts(extent: Extent, before: Path | None, others: Path | None) -> 
     """Each part of the page, once it is measured; an older checkout and a folder of other robots may be given."""
     trees, chains = ([generated(shape, links) for links in some] for shape, some in _shapes(extent))
     yield _said(sizes.measure([*trees, *chains, *inputs.known()], extent.rounds))
+    yield _said(mjcf.measure([robot for robot in trees if robot.links in mjcf.SIZES], extent.rounds))
     corpus = [Robot(file.name, file.path, 0) for file in inputs.corpus(extent.every, Kind.URDF)]
     made = [generated(shape, links) for shape in ("tree", "chain") for links in extent.converted]
     yield _said(converters.measure(corpus, inputs.robots_in(others), made, extent.corpus_rounds))
@@ -80,7 +81,9 @@ def _profiles(every: int) -> dict[str, Mapping[str, float]]:
     urdf, sdf = ([file.path for file in inputs.corpus(every, kind)] for kind in (Kind.URDF, Kind.SDF))
     found = {
         f"{tree.name} to SDF": stages.profile([tree.path], "sdf"),
-        f"{tree.name} to URDF": stages.profile([inputs.in_sdf(tree)], "urdf"),
+        f"{tree.name} to URDF": stages.profile([inputs.converted(tree, "sdf")], "urdf"),
+        f"{tree.name} to MJCF": stages.profile([tree.path], "mjcf"),
+        f"{tree.name}, MJCF to SDF": stages.profile([inputs.converted(tree, "mjcf")], "sdf"),
     }
     if urdf and sdf:
         found["real URDF to SDF"] = stages.profile(urdf, "sdf")

@@ -43,7 +43,7 @@ def measure(robots: Iterable[Robot], rounds: int) -> Part:
     rows: list[Row] = []
     for robot in robots:
         there = in_turns(engines, robot.path, rounds)
-        rows.append(Row(robot, {**there, **in_turns([SDF_FLOOR, TO_URDF], inputs.in_sdf(robot), rounds)}))
+        rows.append(Row(robot, {**there, **in_turns([SDF_FLOOR, TO_URDF], inputs.converted(robot, "sdf"), rounds)}))
     for engine in (*engines, SDF_FLOOR, TO_URDF):
         engine.close()
     names = [reader.name for reader in readers]

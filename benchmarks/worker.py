@@ -67,6 +67,11 @@ def _to_urdf(path: Path) -> Call:
     return lambda: twinform.convert(path, to="urdf")
 
 
+def _to_mjcf(path: Path) -> Call:
+    twinform = _module("twinform")
+    return lambda: twinform.convert(path, to="mjcf")
+
+
 def _drake(path: Path) -> Call:
     plant, parser = _module("pydrake.multibody.plant").MultibodyPlant, _module("pydrake.multibody.parsing").Parser
     logging.getLogger("drake").setLevel(logging.ERROR)  # each warning costs as much as a link
@@ -98,6 +103,7 @@ FUNCTIONS: Mapping[str, Callable[[Path], Call]] = {
     "load": _load,
     "to SDF": _to_sdf,
     "to URDF": _to_urdf,
+    "to MJCF": _to_mjcf,
     "Drake": _drake,
     "Pinocchio": _pinocchio,
     "yourdfpy": _yourdfpy,
