@@ -5,15 +5,20 @@ that meshes which are not star-shaped weigh too much; `exact` gives them their s
 `shell` spreads the mass over the surface.
 """
 
+import math
+from collections.abc import Callable, Mapping
 from importlib import import_module
 from typing import TYPE_CHECKING
 
 from twinform.compiler.input.mjcf.assets import AssetTable
-from twinform.compiler.input.mjcf.lower_shapes import lower_shape, mesh_of
+from twinform.compiler.input.mjcf.lower_shapes import PlacedShape, lower_shape, mesh_of
 from twinform.compiler.input.mjcf.pieces import Piece
-from twinform.diagnostics import DiagnosticSink
-from twinform.ir import Heightmap, Mesh, Plane
-from twinform.ir.solids import NOTHING, Solid, placed, solid
+from twinform.compiler.input.mjcf.shell_solids import shell
+from twinform.diagnostics import DiagnosticSink, rules
+from twinform.ir import Box, Capsule, Cylinder, Ellipsoid, Mesh, Sphere
+from twinform.ir.geometry import Shape
+from twinform.ir.solids import NOTHING, Solid, placed, principal_axes, solid
+from twinform.ir.transform import Transform
 from twinform.passes.shared.mesh_solids import MeshError, Meshes
 
 if TYPE_CHECKING:
@@ -23,13 +28,31 @@ if TYPE_CHECKING:
     Points = NDArray[np.float64]
     Faces = NDArray[np.int64]
 
+
+def _with_radius(one: float, other: float) -> float:
+    return (one + other) / 2
+
+
+_FITTED: Mapping[str, Callable[[float, float, float], Shape]] = {
+    "sphere": lambda x, y, z: Sphere.unchecked(radius=(x + y + z) / 3),
+    "capsule": lambda x, y, z: Capsule.unchecked(
+        radius=_with_radius(x, y), length=2 * max(z - _with_radius(x, y) / 2, 0.0)
+    ),
+    "cylinder": lambda x, y, z: Cylinder.unchecked(radius=_with_radius(x, y), length=2 * z),
+    "box": lambda x, y, z: Box.unchecked(size=(2 * x, 2 * y, 2 * z)),
+    "ellipsoid": lambda x, y, z: Ellipsoid.unchecked(radii=(x, y, z)),
+}
+"""What is fitted to a box with three half sides, of which the last one is the longest."""
+_WEIGHTLESS = frozenset({"plane", "hfield"})
 _LEGACY, _EXACT, _CONVEX, _SHELL = "legacy", "exact", "convex", "shell"
 
 
 class GeomSolids:
     """Fills geoms with a density; each mesh is measured once."""
 
-    def __init__(self, assets: AssetTable, meshes: Meshes, sink: DiagnosticSink) -> None:
+    def __init__(self, assets: AssetTable, meshes: Meshes, sink: DiagnosticSink, *, by_bounds: bool = False) -> None:
+        self._by_bounds = by_bounds
+        self._uncounted: set[tuple[str, str | None]] = set()
         self._assets = assets
         self._meshes = meshes
         self._sink = sink
@@ -38,18 +61,55 @@ class GeomSolids:
     def __call__(self, geom: Piece, density: float) -> Solid | None:
         """Return the geom filled with a density in kg/m^3, in its own frame; None where nothing can be computed."""
         shape = lower_shape(geom, self._assets)
-        if shape is None:
-            return None
-        if isinstance(shape.shape, Plane | Heightmap):
+        if geom.peek("type") in _WEIGHTLESS:
             return NOTHING
-        if not isinstance(shape.shape, Mesh):
-            return solid(shape.shape, density)
         asset = self._assets.find("mesh", geom.peek("mesh"))
+        if shape is None:
+            fitted = None if asset is None else self._fitted(geom, asset)
+            if fitted is None:
+                self._report_uncounted(geom)
+            return None if fitted is None else self._filled(geom, fitted, density)
+        if not isinstance(shape.shape, Mesh):
+            return self._filled(geom, shape, density)
         measured = None if asset is None else self._of_asset(asset)
         if measured is None:
             return None
         of_density = Solid(measured.mass * density, measured.center, _times(measured.inertia, density))
         return placed(of_density, shape.at)
+
+    def _filled(self, geom: Piece, shape: PlacedShape, density: float) -> Solid | None:
+        fill = shell if geom.peek("shellinertia") == "true" else solid
+        found = fill(shape.shape, density)
+        return found and placed(found, shape.at)
+
+    def _fitted(self, geom: Piece, asset: Piece) -> PlacedShape | None:
+        """Return the primitive that MuJoCo fits to the equivalent box of a mesh; None where it is fitted otherwise."""
+        kind, measured = geom.peek("type") or "sphere", None if self._by_bounds else self._of_asset(asset)
+        frame = mesh_of(asset)
+        asset.leave("file", "scale", "refpos", "refquat")  # a document has no place for what is only fitted to
+        if kind not in _FITTED or measured is None or frame is None or not measured.mass > 0:
+            return None
+        moments, axes = principal_axes(measured.inertia)
+        ordered = sorted(zip(moments, axes, strict=True), reverse=True)
+        whole = sum(moments)
+        # half the sides of a box with these moments: the shortest first
+        half = [math.sqrt(max(whole - 2 * moment, 0.0) * 1.5 / measured.mass) for moment, _ in ordered]
+        scale = next(iter(geom.peek_numbers("fitscale")), 1.0)
+        (u, v, w) = (axis for _, axis in ordered)
+        columns = (u[0], v[0], w[0], u[1], v[1], w[1], u[2], v[2], w[2])
+        at = Transform(measured.center, columns)
+        return PlacedShape(_FITTED[kind](*(scale * each for each in half)), frame.at.compose(at))
+
+    def _report_uncounted(self, geom: Piece) -> None:
+        """Report a geom whose mass is not known, once for each mesh."""
+        kind, mesh = geom.peek("type") or "sphere", geom.peek("mesh")
+        if (kind, mesh) in self._uncounted:
+            return
+        self._uncounted.add((kind, mesh))
+        what = f"geom {geom.name!r}" if geom.name else "this geom"
+        message = f"{what} is a {kind} that only MuJoCo can measure, so that it counts for no mass"
+        hint = "write an <inertial> with the mass of its body"
+        self._sink.report(rules.UNREADABLE_MESH, message, geom.location, found=kind, help=hint)
 
     def _of_asset(self, asset: Piece) -> Solid | None:
         """Return the mesh of an asset filled with a density of one; one that cannot be read is reported once."""

@@ -60,7 +60,8 @@ class FileLowering:
         )
         settings = MassSettings.of(self.sections.of("compiler"))
         meshes = Meshes(LocalAssets(load_options.search, Path(unexpanded_name(context.file))))
-        solids = GeomSolids(self.assets, meshes, context.sink)
+        by_bounds = any(each.peek("fitaabb") == "true" for each in self.sections.of("compiler"))
+        solids = GeomSolids(self.assets, meshes, context.sink, by_bounds=by_bounds)
         bodies = [each for tree in self.trees for each in tree.bodies()]
         self.inertias = {each: body_inertia(each, settings, solids) for each in bodies}
         self.scale = scale_of(settings, [each.solid.mass for each in self.inertias.values()])

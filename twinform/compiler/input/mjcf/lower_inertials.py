@@ -123,7 +123,7 @@ def _solids(body: Piece, settings: MassSettings, solid_of: SolidOf) -> Sequence[
         # A mesh that has no mass need not be there.
         solid = solid_of(geom, density) if mass is None and density else None
         if mass is not None:
-            filled = solid_of(geom, DENSITY)
+            filled = solid_of(geom, DENSITY) if mass else None
             solid = with_mass(filled, mass) if filled is not None and filled.mass else None
         if solid is not None:
             found.append(placed(solid, geom.transform()))

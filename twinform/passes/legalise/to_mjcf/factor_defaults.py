@@ -42,6 +42,8 @@ class FactorDefaults(Pass):
             return document
         classes = {name: _alike(group) for name, group in _geoms(sections).items()}
         main = {tag: _alike(list(_all_of(tag, sections))) for tag in _SECTIONS}
+        if next(_all_of("flexcomp", sections), None) is not None:
+            del main["joint"]  # it makes joints, which would take the values of the class
         defaults = [make_element(tag, values.items()) for tag, values in main.items() if values]
         defaults += [
             make_element("default", [("class", name)], [make_element("geom", values.items())])

@@ -89,3 +89,10 @@ def test_lists_of_different_lengths_are_in_no_class() -> None:
     text = _model(geoms).replace("size='1'/>", "size='1' friction='1'/>")
     plain, factored = _texts(text)
     assert _canonical(factored) == _canonical(plain)
+
+
+def test_joints_have_no_class_where_more_are_made_of_a_flexcomp() -> None:
+    joints = "<joint name='j' type='slide' axis='1 0 0' damping='1'/><joint name='k' type='slide' damping='1'/>"
+    flex = "<flexcomp name='f' type='grid' count='3 3 1' dim='2' mass='1'/>"
+    assert _written(_model(joints=joints)).find("default/joint") is not None
+    assert _written(_model(flex, joints)).find("default/joint") is None

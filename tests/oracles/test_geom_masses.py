@@ -1,0 +1,70 @@
+"""Masses of hollow geoms, and of primitives that are fitted to meshes, are those of MuJoCo."""
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import twinform
+from twinform.ir.solids import tensor, turned
+from twinform.ir.transform import Transform
+
+mujoco: Any = pytest.importorskip("mujoco")
+np: Any = pytest.importorskip("numpy")
+
+_MESH = Path(__file__).parents[1] / "cases/mjcf/parts/tetrahedron.obj"
+_TWO, _THREE = "0.1 0.2", "0.1 0.2 0.3"
+_SIZES = {"sphere": "0.2", "capsule": _TWO, "cylinder": _TWO, "box": _THREE, "ellipsoid": _THREE}
+_SHELL = 'shellinertia="true" density="30"'
+
+
+def _load(tmp_path: Path, geoms: list[str], compiler: str = "") -> Path:
+    bodies = "".join(f'<body name="b{n}"><joint/>{geom}</body>' for n, geom in enumerate(geoms))
+    path = tmp_path / "model.xml"
+    path.write_text(
+        f'<mujoco model="m"><compiler {compiler}/>'
+        f'<asset><mesh name="t" file="{_MESH}" scale="1 2 0.5" refpos="0.1 0 0"/></asset>'
+        f'<worldbody><body name="base"><geom size="1"/>{bodies}</body></worldbody></mujoco>'
+    )
+    return path
+
+
+def _inertia(model: Any, body: int) -> Any:
+    matrix = np.zeros(9)
+    mujoco.mju_quat2Mat(matrix, model.body_iquat[body])
+    turn = matrix.reshape(3, 3)
+    return turn @ np.diag(model.body_inertia[body]) @ turn.T
+
+
+def _are_the_same(path: Path, tolerance: float) -> None:
+    model = mujoco.MjModel.from_xml_path(str(path))
+    (robot,) = twinform.load(path, paths=[_MESH.parent]).models
+    for number in range(2, model.nbody):
+        inertial = robot.link(model.body(number).name).inertial
+        assert inertial is not None
+        assert inertial.inertia is not None
+        at = Transform.from_pose(inertial.pose)
+        xx, yy, zz, xy, xz, yz = turned(tensor(inertial.inertia, 0.0), at)
+        assert inertial.mass == pytest.approx(model.body_mass[number], rel=tolerance)
+        assert at.translation == pytest.approx(tuple(model.body_ipos[number]), abs=tolerance)
+        own = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+        assert np.allclose(own, _inertia(model, number), rtol=0, atol=tolerance * own.max())
+
+
+def test_hollow_geoms(tmp_path: Path) -> None:
+    geoms = [f'<geom type="{kind}" size="{size}" pos="1 2 3" {_SHELL}/>' for kind, size in _SIZES.items()]
+    _are_the_same(_load(tmp_path, geoms), 1e-9)
+
+
+@pytest.mark.parametrize("more", ["", 'fitscale="1.5"', 'mass="3"', _SHELL, 'pos="1 2 3" euler="10 20 30"'])
+def test_geoms_that_are_fitted_to_a_mesh(tmp_path: Path, more: str) -> None:
+    geoms = [f'<geom type="{kind}" mesh="t" {more}/>' for kind in _SIZES]
+    _are_the_same(_load(tmp_path, geoms), 1e-5)  # MuJoCo has the points of meshes in single precision
+
+
+def test_what_cannot_be_measured_is_reported(tmp_path: Path) -> None:
+    path = _load(tmp_path, ['<geom type="box" mesh="t"/>'], 'fitaabb="true"')
+    found = twinform.check(path, paths=[_MESH.parent]).diagnostics
+    assert [each.message for each in found if each.rule.name == "unreadable-mesh"] == [
+        "this geom is a box that only MuJoCo can measure, so that it counts for no mass"
+    ]
