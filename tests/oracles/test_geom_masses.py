@@ -62,6 +62,28 @@ def test_geoms_that_are_fitted_to_a_mesh(tmp_path: Path, more: str) -> None:
     _are_the_same(_load(tmp_path, geoms), 1e-5)  # MuJoCo has the points of meshes in single precision
 
 
+@pytest.mark.parametrize("inertia", ["legacy", "exact", "convex", "shell"])
+@pytest.mark.parametrize("faces", ["", 'face="0 2 1 0 1 3 0 3 2 1 2 3"'])
+def test_meshes_whose_vertices_stand_in_the_file(tmp_path: Path, inertia: str, faces: str) -> None:
+    path = tmp_path / "model.xml"
+    path.write_text(
+        f'''<mujoco model="m"><asset><mesh name="t" inertia="{inertia}" vertex="0 0 0 1 0 0 0 1 0 0 0.1 1.5" {faces}
+        scale="1 2 0.5" refpos="0.1 0 0"/></asset><worldbody><body name="base"><geom size="1"/>
+        <body name="a"><joint/><geom type="mesh" mesh="t" pos="1 2 3" euler="10 20 30"/></body>
+        <body name="b"><joint/><geom type="box" mesh="t"/></body></body></worldbody></mujoco>'''
+    )
+    _are_the_same(path, 1e-5)
+
+
+def test_a_flat_mesh_has_no_mass(tmp_path: Path) -> None:
+    path = tmp_path / "model.xml"
+    path.write_text(
+        """<mujoco model="m"><asset><mesh name="t" vertex="0 0 0 1 0 0 0 1 0 1 1 0"/></asset><worldbody>
+        <body name="base"><geom type="mesh" mesh="t"/></body></worldbody></mujoco>"""
+    )
+    assert "unreadable-mesh" in {each.rule.name for each in twinform.check(path).diagnostics}
+
+
 def test_what_cannot_be_measured_is_reported(tmp_path: Path) -> None:
     path = _load(tmp_path, ['<geom type="box" mesh="t"/>'], 'fitaabb="true"')
     found = twinform.check(path, paths=[_MESH.parent]).diagnostics

@@ -8,11 +8,12 @@ that meshes which are not star-shaped weigh too much; `exact` gives them their s
 import math
 from collections.abc import Callable, Mapping
 from importlib import import_module
+from importlib.util import find_spec
 from typing import TYPE_CHECKING
 
 from twinform.compiler.input.mjcf.assets import AssetTable
 from twinform.compiler.input.mjcf.lower_shapes import PlacedShape, lower_shape, mesh_of
-from twinform.compiler.input.mjcf.pieces import Piece
+from twinform.compiler.input.mjcf.pieces import Piece, placed_at
 from twinform.compiler.input.mjcf.shell_solids import shell
 from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Box, Capsule, Cylinder, Ellipsoid, Mesh, Sphere
@@ -43,6 +44,8 @@ _FITTED: Mapping[str, Callable[[float, float, float], Shape]] = {
     "ellipsoid": lambda x, y, z: Ellipsoid.unchecked(radii=(x, y, z)),
 }
 """What is fitted to a box with three half sides, of which the last one is the longest."""
+_FEWEST = 12
+"""The numbers of the four vertices that a mesh needs."""
 _WEIGHTLESS = frozenset({"plane", "hfield"})
 _LEGACY, _EXACT, _CONVEX, _SHELL = "legacy", "exact", "convex", "shell"
 
@@ -65,17 +68,22 @@ class GeomSolids:
             return NOTHING
         asset = self._assets.find("mesh", geom.peek("mesh"))
         if shape is None:
-            fitted = None if asset is None else self._fitted(geom, asset)
-            if fitted is None:
+            found = None if asset is None else self._of_no_shape(geom, asset, density)
+            if found is None:
                 self._report_uncounted(geom)
-            return None if fitted is None else self._filled(geom, fitted, density)
+            return found
         if not isinstance(shape.shape, Mesh):
             return self._filled(geom, shape, density)
         measured = None if asset is None else self._of_asset(asset)
-        if measured is None:
-            return None
-        of_density = Solid(measured.mass * density, measured.center, _times(measured.inertia, density))
-        return placed(of_density, shape.at)
+        return None if measured is None else placed(_of_density(measured, density), shape.at)
+
+    def _of_no_shape(self, geom: Piece, asset: Piece, density: float) -> Solid | None:
+        """Return the mass of a geom that has no shape in SDF: a mesh without file, or what is fitted to a mesh."""
+        if geom.peek("type") == "mesh":
+            measured = self._of_asset(asset)
+            return None if measured is None else _of_density(measured, density)
+        fitted = self._fitted(geom, asset)
+        return None if fitted is None else self._filled(geom, fitted, density)
 
     def _filled(self, geom: Piece, shape: PlacedShape, density: float) -> Solid | None:
         fill = shell if geom.peek("shellinertia") == "true" else solid
@@ -87,7 +95,7 @@ class GeomSolids:
         kind, measured = geom.peek("type") or "sphere", None if self._by_bounds else self._of_asset(asset)
         frame = mesh_of(asset)
         asset.leave("file", "scale", "refpos", "refquat")  # a document has no place for what is only fitted to
-        if kind not in _FITTED or measured is None or frame is None or not measured.mass > 0:
+        if kind not in _FITTED or measured is None or not measured.mass > 0:
             return None
         moments, axes = principal_axes(measured.inertia)
         ordered = sorted(zip(moments, axes, strict=True), reverse=True)
@@ -98,7 +106,7 @@ class GeomSolids:
         (u, v, w) = (axis for _, axis in ordered)
         columns = (u[0], v[0], w[0], u[1], v[1], w[1], u[2], v[2], w[2])
         at = Transform(measured.center, columns)
-        return PlacedShape(_FITTED[kind](*(scale * each for each in half)), frame.at.compose(at))
+        return PlacedShape(_FITTED[kind](*(scale * each for each in half)), frame.at.compose(at) if frame else at)
 
     def _report_uncounted(self, geom: Piece) -> None:
         """Report a geom whose mass is not known, once for each mesh."""
@@ -120,9 +128,9 @@ class GeomSolids:
     def _measure(self, asset: Piece) -> Solid | None:
         found = mesh_of(asset)
         mesh = found.shape if found else None
-        if not isinstance(mesh, Mesh):
-            return None
         way = asset.peek("inertia") or _LEGACY
+        if not isinstance(mesh, Mesh):
+            return None if asset.has("file") else _measure_vertices(asset, way)
         try:
             triangles = self._meshes.triangles(mesh)
         except MeshError as error:
@@ -134,6 +142,27 @@ class GeomSolids:
         points = np.frombuffer(triangles.points, dtype=np.float64).reshape(-1, 3)
         faces = np.frombuffer(triangles.faces, dtype=np.int64).reshape(-1, 3)
         return _measure_faces(points, faces, way)
+
+
+def _of_density(measured: Solid, density: float) -> Solid:
+    return Solid(measured.mass * density, measured.center, _times(measured.inertia, density))
+
+
+def _measure_vertices(asset: Piece, way: str) -> Solid | None:
+    """Measure a mesh whose vertices stand in its asset; without faces it is their convex hull."""
+    numbers = asset.peek_numbers("vertex")
+    back = placed_at(asset.peek_numbers("refpos"), asset.peek_numbers("refquat")).inverse()
+    scale = asset.peek_numbers("scale") or (1.0, 1.0, 1.0)
+    if len(numbers) < _FEWEST or len(numbers) % 3 or find_spec("scipy") is None:  # which not everybody installs
+        return None
+    import numpy as np  # noqa: PLC0415 - only meshes need it
+
+    corners = [(numbers[at], numbers[at + 1], numbers[at + 2]) for at in range(0, len(numbers), 3)]
+    points = np.array([back.apply(each) for each in corners]) * scale
+    faces = np.array(asset.peek_numbers("face"), dtype=np.int64).reshape(-1, 3)
+    if faces.size and not 0 <= faces.min() <= faces.max() < len(points):
+        return None
+    return _measure_faces(points, faces if faces.size else _hull(points), way)
 
 
 def _times(inertia: tuple[float, ...], factor: float) -> tuple[float, float, float, float, float, float]:
@@ -166,10 +195,14 @@ def _measure_faces(points: "Points", faces: "Faces", way: str) -> Solid | None:
 
 
 def _hull(points: "Points") -> "Faces":
-    """Return the faces of the convex hull, outward."""
+    """Return the faces of the convex hull, outward; none where all points are in a plane."""
     import numpy as np  # noqa: PLC0415 - as above
 
-    hull = import_module("scipy.spatial").ConvexHull(points)  # few meshes ask for it
+    spatial = import_module("scipy.spatial")  # few meshes ask for it
+    try:
+        hull = spatial.ConvexHull(points)
+    except spatial.QhullError:
+        return np.zeros((0, 3), dtype=np.int64)
     faces = np.array(hull.simplices, dtype=np.int64)
     corners = points[faces]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
