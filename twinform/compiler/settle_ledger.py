@@ -16,7 +16,8 @@ from twinform.lazy import lazy_pattern
 from twinform.schemas import XmlElement
 
 _WORST_FIRST = (Fate.DROPPED, Fate.CARRIED, Fate.APPROXIMATED)
-_PREDICATE = lazy_pattern(r"\[[^]]*+\]?|\{[^}]*+\}?|(?<=[/@])[\w.-]+:")
+_PREDICATE = lazy_pattern(r"\[[^]]*+\]?|\{[^}]*+\}?")
+_PREFIX = lazy_pattern(r"(?<=[/@])[\w.-]+:")
 _Part = tuple[XmlElement, str]
 """An element, and the name of one of its attributes, or nothing for the element itself."""
 _Place = tuple[int, str, str]
@@ -47,7 +48,8 @@ def settle(entries: Sequence[LedgerEntry], root: XmlElement) -> tuple[LedgerEntr
 
 def bare_path(path: str) -> str:
     """Return a path without predicates and prefixes; the line of a part tells elements of one path apart."""
-    return _PREDICATE.sub("", path)
+    bare = _PREDICATE.sub("", path)
+    return _PREFIX.sub("", bare) if ":" in bare else bare  # few have one, and each step would be looked at
 
 
 def _elements_by_place(root: XmlElement, lines: Collection[int]) -> dict[tuple[int, str], list[XmlElement]]:
