@@ -293,6 +293,19 @@ def _note_other_words(fact: Fact) -> None:
         _note_other_words(row)
 
 
+@cache
+def named_kinds(format: str) -> Mapping[str, str]:
+    """Return the kind of part that each attribute names, for a format where attributes of one name mean one kind."""
+    found: dict[str, str] = {}
+    waiting = list(table(format).definitions.values())
+    while waiting:
+        row = waiting.pop()
+        waiting += row.rows
+        if row.is_attribute and len(row.names) == 1:
+            found[row.name.removeprefix("@")] = row.names[0]
+    return found
+
+
 def in_version(fact: Fact, version: Version) -> Fact:
     """Copy a fact with only the rows that a version has, at every depth."""
     return replace(fact, rows=[in_version(row, version) for row in fact.rows if row.exists_in(version)])

@@ -2,7 +2,7 @@
 
 import pytest
 
-from twinform.schemas.facts import FactDefinitions, parse_facts
+from twinform.schemas.facts import Fact, FactDefinitions, named_kinds, parse_facts, table
 
 _FIELD_BELOW_NOTHING = """\
 visual
@@ -56,3 +56,12 @@ def test_rows_of_another_definition_stand_where_it_is_named() -> None:
 def test_a_row_says_of_what_its_value_is_the_name() -> None:
     (sensor,) = parse_facts(["sensor", "  @objname  1  string  names=body|site"], "t.facts")
     assert sensor.rows[0].names == ("body", "site")
+
+
+def test_attributes_of_mjcf_that_name_parts_mean_one_kind_wherever_they_are() -> None:
+    def walk(row: Fact) -> list[Fact]:
+        return [row, *(inner for each in row.rows for inner in walk(each))]
+
+    rows = [row for each in table("mjcf").definitions.values() for row in walk(each)]
+    naming = {(row.name, row.names) for row in rows if row.is_attribute and len(row.names) == 1}
+    assert {(f"@{name}", (kind,)) for name, kind in named_kinds("mjcf").items()} == naming

@@ -3,18 +3,12 @@
 from collections.abc import Iterable, Mapping, Sequence
 
 from twinform.compiler.input.mjcf.pieces import Piece
+from twinform.schemas.facts import named_kinds
 
-_NAMED = ("body", "joint", "freejoint", "geom", "site", "camera", "light")
-_BY_ATTRIBUTE: Mapping[str, str] = {
-    **dict.fromkeys(("body", "body1", "body2"), "body"),
-    **dict.fromkeys(("joint", "joint1", "joint2", "jointinparent"), "joint"),
-    **dict.fromkeys(("geom", "geom1", "geom2"), "geom"),
-    **dict.fromkeys(("site", "site1", "site2", "slidersite", "cranksite", "refsite", "sidesite"), "site"),
-    "camera": "camera",
-    **dict.fromkeys(("tendon", "tendon1", "tendon2"), "tendon"),
-    "actuator": "actuator",
-}
-"""The kind of part that an attribute names."""
+_IN_TREES = frozenset({"body", "joint", "freejoint", "geom", "site", "camera", "light"})
+"""What stands in a tree of bodies and may have a name."""
+_OWNED = frozenset({*_IN_TREES, "tendon", "actuator"})
+"""The kinds of parts that are in one tree, or about one."""
 _BY_TYPE: Mapping[str, str] = {"objname": "objtype", "refname": "reftype"}
 """Attributes that name a part whose kind stands in another one."""
 
@@ -55,7 +49,7 @@ class Owners:
         self._about: dict[str, dict[int | None, list[Piece]]] = {}
         for number, tree in enumerate(trees):
             for each in tree.walk():
-                if each.tag in _NAMED and each.name is not None:
+                if each.tag in _IN_TREES and each.name is not None:
                     kind = "joint" if each.tag == "freejoint" else each.tag
                     self._trees.setdefault((kind, each.name), number)
         # tendons go over joints and sites, and actuators pull at tendons
@@ -83,9 +77,10 @@ class Owners:
         return found.pop() if len(found) == 1 else None
 
     def _named(self, piece: Piece) -> Iterable[int]:
-        for attribute, kind in _BY_ATTRIBUTE.items():
-            name = piece.peek(attribute)
-            if name is not None:
+        kinds = named_kinds("mjcf")
+        for attribute in piece.attributes:
+            kind, name = kinds.get(attribute), piece.peek(attribute)
+            if kind in _OWNED and name is not None:
                 yield self._trees.get((kind, name), -1)
         for attribute, type_ in _BY_TYPE.items():
             name, kind = piece.peek(attribute), piece.peek(type_)

@@ -12,13 +12,10 @@ from twinform.passes.legalise.to_mjcf.assets import file_path
 from twinform.passes.legalise.to_mjcf.kept_mjcf import SINGLE, kept_elements, merged
 from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext
 from twinform.passes.shared.document_uris import FILES_OF_MJCF
+from twinform.schemas.facts import named_kinds
 
-_ONES: Mapping[str, str] = {
-    **dict.fromkeys(("joint", "joint1", "joint2", "jointinparent"), "joint"),
-    **dict.fromkeys(("body", "body1", "body2", "subtree1", "subtree2", "target"), "body"),
-    **dict.fromkeys(("site", "site1", "site2", "slidersite", "cranksite", "refsite", "sidesite"), "site"),
-}
-"""The kind of part that an attribute names."""
+_RENAMED = frozenset({"joint", "body", "site"})
+"""The kinds of parts that may have another name in MJCF than where they were kept."""
 _BY_TYPE: Mapping[str, str] = {"objname": "objtype", "refname": "reftype"}
 """Attributes that name a part whose kind stands in another one."""
 
@@ -106,4 +103,5 @@ def _kind(element: Element, attribute: str) -> str | None:
     """The kind of part that an attribute of an element names."""
     if attribute in _BY_TYPE:
         return (element.get(_BY_TYPE[attribute]) or "").removeprefix("x")
-    return _ONES.get(attribute)
+    kind = named_kinds("mjcf").get(attribute)
+    return kind if kind in _RENAMED else None
