@@ -14,6 +14,7 @@ from twinform.diagnostics import Span
 from twinform.ir import Element
 from twinform.ir.references import REFERENCES, ReferenceKind
 from twinform.passes.structure.reference_words import kind_of_attribute, kind_of_text
+from twinform.server import mjcf_names
 from twinform.server.mapping import FormatName, MappingRow, field_of
 from twinform.server.model_text import ModelText
 from twinform.server.names import XACRO_KINDS, Name, xacro_names
@@ -50,6 +51,8 @@ def _collect_definitions(document: ModelText) -> tuple[Name, ...]:
 
 def _definition(document: ModelText, node: TolerantNode) -> Name | None:
     """Return the name that the attribute `name` of an element defines, or the text of the `<name>` of an include."""
+    if document.schema.format == "mjcf":
+        return mjcf_names.definition_of(node)
     if node.tag in DEFINED and node.get("name") and _defines(document, node):
         scope = surroundings(document, node.parent).scope
         return Name(node.values["name"], node.attributes["name"].value, node, node.tag, defines=True, scope=scope)
@@ -168,6 +171,10 @@ def _names_in_attributes(document: ModelText, node: TolerantNode, definition: Na
             continue
         if definition is not None and span.value == definition.span:
             continue
+        if document.schema.format == "mjcf":
+            row = document.schema.row(node, attribute)
+            yield from mjcf_names.references_of(node, attribute, span.value, row)
+            continue
         if attribute == "name" and node.tag in _STATES and surroundings(document, node).in_state:
             yield Name(value, span.value, node, "model", defines=False)
             continue
@@ -207,9 +214,6 @@ def _has_text(node: TolerantNode) -> bool:
 
 def _defines(document: ModelText, node: TolerantNode) -> bool:
     """Whether the attribute `name` of an element defines a name, and does not refer to one."""
-    # A name of MJCF is one of its kind, and many attributes name each kind: to rename half of them would be wrong.
-    if document.schema.format == "mjcf":
-        return False
     if node.tag not in DEFINED or (node.tag == "model" and surroundings(document, node).in_state):
         return False
     row = document.schema.row(node)
@@ -269,7 +273,7 @@ def resolve_in(document: ModelText, name: Name) -> list[Name]:
         return _resolve_scoped(document, name)
     if name.kind in XACRO_KINDS:
         return _resolve_parameter(document, name) or defined_anywhere(document, name.text, name.kind)
-    scope = None if format == "urdf" else _model_of_state(document, name.scope)
+    scope = None if format != "sdf" else _model_of_state(document, name.scope)
     for kind in name.kinds:
         own = defined(document, name.text, kind, scope) if scope else defined_anywhere(document, name.text, kind)
         if own:

@@ -31,6 +31,13 @@ _KINDS = {
     "gazebo": types.SymbolKind.Object,
     "include": types.SymbolKind.File,
     "actor": types.SymbolKind.Object,
+    "mujoco": types.SymbolKind.Module,
+    "worldbody": types.SymbolKind.Namespace,
+    "body": types.SymbolKind.Class,
+    "freejoint": types.SymbolKind.Event,
+    "site": types.SymbolKind.Key,
+    "geom": types.SymbolKind.Field,
+    "default": types.SymbolKind.Constant,
     "xacro:macro": types.SymbolKind.Function,
     "xacro:property": types.SymbolKind.Variable,
     "xacro:arg": types.SymbolKind.TypeParameter,
@@ -72,7 +79,7 @@ def search(session: Session, words: str) -> list[types.WorkspaceSymbol]:
 
 
 def _symbol(document: TextDocument, node: TolerantNode) -> types.DocumentSymbol:
-    called = node.get("name") or node.get("reference") or node.get("filename")
+    called = node.get("name") or node.get("reference") or node.get("filename") or node.get("class")
     positions = document.positions
     key = node.attributes.get("name")
     selected = key.value if key is not None and key.value.end > key.value.start else node.name

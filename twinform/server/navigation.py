@@ -73,7 +73,7 @@ def references(session: Session, document: TextDocument, offset: int) -> tuple[l
     group = session.neighbors.connected(document, search_of(session, document), folders)
     what = resolve(Found(document, name), group, session)
     wanted = {(each.document.path, each.name.span) for each in what}
-    last = name.text.rpartition("::")[2]
+    last = _last_step(document, name)
     known: dict[object, bool] = {}
     found: list[Found] = []
     for each in _references_to(group, last):
@@ -102,7 +102,7 @@ def resolve(found: Found, group: Sequence[TextDocument], session: Session) -> li
     here = [Found(document, each) for each in resolve_in(document, name)]
     if here or (name.scope is not None and document.schema.format == "sdf" and "::" not in name.text):
         return here
-    if "::" in name.text:
+    if "::" in name.text and document.schema.format != "mjcf":
         return _resolve_in_include(found, session)
     for other in group:
         there = [] if other.path == document.path else resolve_in(other, replace(name, scope=None))
@@ -140,19 +140,24 @@ def first_model(root: TolerantNode | None) -> TolerantNode | None:
     return next((child for child in root.children if child.tag == "model"), None)
 
 
+def _last_step(document: TextDocument, name: Name) -> str:
+    """Return what of a name is that of the thing itself; names of MJCF have no steps."""
+    return name.text if document.schema.format == "mjcf" else name.text.rpartition("::")[2]
+
+
 def _references_to(group: Sequence[TextDocument], last: str) -> Iterator[Found]:
     """Yield all references whose last step is a name."""
     for document in group:
         if last not in document.text:
             continue
         for name in names_of(document):
-            if not name.defines and name.text.rpartition("::")[2] == last:
+            if not name.defines and _last_step(document, name) == last:
                 yield Found(document, name)
 
 
 def find_clash(document: TextDocument, new: str, like: Name) -> Name | None:
     """Find a definition that has a new name already and must not share it with `like`."""
-    kinds = {like.kind} if document.schema.format == "urdf" or like.kind not in _ONE_SCOPE else _ONE_SCOPE
+    kinds = _ONE_SCOPE if document.schema.format == "sdf" and like.kind in _ONE_SCOPE else {like.kind}
     return next((own[0] for kind in sorted(kinds) if (own := defined(document, new, kind, like.scope))), None)
 
 
@@ -181,7 +186,7 @@ def prepare(document: TextDocument, offset: int) -> types.PrepareRenamePlacehold
     if name is None:
         return None
     _refuse_expression(name)
-    placeholder = name.text.rpartition("::")[2]
+    placeholder = _last_step(document, name)
     return types.PrepareRenamePlaceholder(range=document.positions.range(name.span), placeholder=placeholder)
 
 

@@ -13,6 +13,7 @@ from twinform.server.completion.proposals import ITEM, Proposal, ValuePlace, lit
 from twinform.server.document_names import definitions_in, kind_at, scope_of_reference, surroundings
 from twinform.server.documents import TextDocument
 from twinform.server.includes import includes_of, target
+from twinform.server.mjcf_names import kinds_at
 from twinform.server.names import Name
 from twinform.server.navigation import first_model, included_as, search_of
 from twinform.server.schema import parameter_of
@@ -36,6 +37,9 @@ def propose_names(place: ValuePlace) -> Iterator[Proposal]:
     row = place.document.schema.row(place.node, place.attribute)
     path = row.path if row else ""
     # a name in another file, which no reference of this one is about
+    if place.document.schema.format == "mjcf":
+        yield from _propose_mjcf_names(place)
+        return
     kind = "any" if path == _PLACEMENT else _kind_of_value(place)
     if kind is None:
         return
@@ -44,6 +48,17 @@ def propose_names(place: ValuePlace) -> Iterator[Proposal]:
     for text, found in _names_for(place, kind, path):
         if text not in refused and not text.startswith(inside):
             yield Proposal(text, literal(text), ITEM.Reference, found)
+
+
+def _propose_mjcf_names(place: ValuePlace) -> Iterator[Proposal]:
+    if place.attribute is None:
+        return
+    row = place.document.schema.row(place.node, place.attribute)
+    own = place.node.get("name") or ""
+    kinds = kinds_at(place.node, place.attribute, row)
+    for name in definitions_of(place.session, place.document, *kinds):
+        if name.text != own or name.node.tag != place.node.tag:
+            yield Proposal(name.text, literal(name.text), ITEM.Reference, name.kind)
 
 
 def _kind_of_value(place: ValuePlace) -> ReferenceKind | None:
@@ -122,7 +137,7 @@ def documents_with_names(session: Session, document: TextDocument) -> Iterator[T
     good = session.documents.last_good(document)
     if good is not None and good is not document:
         yield good
-    if document.is_xacro:
+    if document.is_xacro or document.schema.format == "mjcf":
         yield from session.neighbors.included(document, search_of(session, document))[1:]
 
 

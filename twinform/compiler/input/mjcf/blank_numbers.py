@@ -21,4 +21,6 @@ def leave_blank_numbers_out(root: XmlElement, context: Context) -> None:
                 message = f"{name!r} of <{element.tag}> is empty, which MuJoCo takes as if it were not there"
                 context.report(rules.BLANK_VALUE, element, message, f"@{name}", found="")
                 del element.attrib[name]
-        waiting += [(child, rows[tag]) for child in element.iterchildren("*") if (tag := str(child.tag)) in rows]
+        # in their order, in which to count siblings takes linear time
+        inside = [each for each in element.iterchildren("*", reversed=True) if each.tag in rows]
+        waiting += [(each, rows[str(each.tag)]) for each in inside]

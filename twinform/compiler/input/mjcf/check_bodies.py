@@ -39,11 +39,11 @@ def check_bodies(root: XmlElement, findings: ElementFindings) -> None:
 
 def _moving_planes(worldbody: XmlElement) -> Iterator[XmlElement]:
     """Yield the planes in bodies that have a joint, or are in one that has."""
-    waiting = [(each, False) for each in worldbody.iterchildren("body")]
+    waiting = [(each, False) for each in worldbody.iterchildren("body", reversed=True)]
     while waiting:
         body, moves = waiting.pop()
         moves = moves or bool(joints_of(body))
-        waiting += [(each, moves) for each in body.iterchildren("body")]
+        waiting += [(each, moves) for each in body.iterchildren("body", reversed=True)]
         yield from (each for each in body.iterchildren("geom") if moves and each.get("type") == "plane")
 
 

@@ -67,6 +67,7 @@ class FileLowering:
         self.scale = scale_of(settings, [each.solid.mass for each in self.inertias.values()])
         self.followers = followers(self.sections.inside("equality"))
         self.efforts = efforts(self.sections.inside("actuator"))
+        self.numbers: dict[str, int] = {}
         self.sensors: dict[int | None, list[SiteSensor]] = {}
         for found in by_site(self.sections.inside("sensor")):
             self.sensors.setdefault(self.owners.of_part("site", found.site), []).append(found)
@@ -103,7 +104,7 @@ class FileLowering:
         parts = lowering.lower()
         self._close_loops(number, lowering, parts)
         self._add_sensors(number, parts)
-        given = reserve_name(safe_name(name or _MODEL), taken)
+        given = reserve_name(safe_name(name or _MODEL), taken, self.numbers)
         is_static = lowering.is_static
         model = Model.unchecked(
             name=given,

@@ -62,11 +62,21 @@ class Reference(NamedTuple):
 
 def kind_of(element: XmlElement, section: str) -> str | None:
     """Return the kind of thing that an element of a section is, if it is one that can be referred to."""
+    return kind_of_tag(str(element.tag), section)
+
+
+def kind_of_tag(tag: str, section: str) -> str | None:
+    """Return the kind of thing that elements of this name are in a section."""
     if section == "worldbody":
-        return KINDS.get(str(element.tag))
+        return KINDS.get(tag)
     if section == "asset":
-        return ASSET_KINDS.get(str(element.tag))
-    return SECTION_KINDS.get(section) or _OTHER_KINDS.get((section, str(element.tag)))
+        return ASSET_KINDS.get(tag)
+    return SECTION_KINDS.get(section) or _OTHER_KINDS.get((section, tag))
+
+
+def kind_of_object(said: str) -> str:
+    """Return the kind that a type of object means."""
+    return _OBJECTS.get(said, said)
 
 
 def references_in(element: XmlElement, kinds: Iterable[str] | None = None) -> Iterator[Reference]:
@@ -85,7 +95,7 @@ def own_references(element: XmlElement) -> Iterator[Reference]:
         kind = _OF_ATTRIBUTE.get(name)
         if name in _OF_OBJECT:
             said = element.get(_OF_OBJECT[name], "")
-            kind = _OBJECTS.get(said, said)
+            kind = kind_of_object(said)
         elif name == "target" and element.tag in {"camera", "light"}:
             kind = "body"
         if kind and value and not _is_no_reference(element, name):
