@@ -18,6 +18,7 @@ from twinform.compiler.input.mjcf.attached_keys import AttachedKeys, Uncountable
 from twinform.compiler.input.mjcf.compiler_settings import CompilerSettings
 from twinform.compiler.input.mjcf.element_findings import ElementFindings, give_number
 from twinform.compiler.input.mjcf.expand_frames import add_to_names, expand_frames, is_too_large
+from twinform.compiler.input.mjcf.merge_settings import merge_settings
 from twinform.compiler.input.mjcf.references import ASSET_KINDS, kind_of, names_in, references_in, rename
 from twinform.compiler.input.mjcf.splice_includes import splice_includes
 from twinform.compiler.input.parsing import UnreadableError, parse, read_bytes, strip_default_namespace
@@ -52,6 +53,7 @@ class Attaching:
             child = self._child(attachment, root, whole, findings)
             content = None if child is None else self._content(attachment, child)
             if child is not None and content is not None:
+                merge_settings(root, child, attachment, findings)
                 _take_in(attachment, child, content, root)
             parent = attachment.getparent()
             if parent is not None:
