@@ -10,5 +10,7 @@ SECTIONS = {
     "older_urdf": "Versions of URDF",
     "mjcf": "MJCF",
     "mjcf_packages": "MJCF of published packages",
+    "mjcf_in_drake": "MJCF in Drake",
+    "mjcf_motion": "MJCF in motion",
 }
 """The sections of the page by the names of their modules, each with its title, in the order of the page."""

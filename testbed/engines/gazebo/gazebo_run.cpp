@@ -2,9 +2,10 @@
 // one JSON object per line for each file named on standard input. Poses are in the world, numbers in SI units and radians.
 //
 //   gazebo_run FOLDER_OF_PLUGINS dart|bullet|tpe [--steps N] [--dt S] [--every N] [--ground Z] [--start RATE] [--seconds N]
-//              [--velocity JOINT=VALUE]... [--force JOINT=VALUE]...
+//              [--velocity JOINT=VALUE]... [--force JOINT=VALUE]... [--period S]
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <ignition/common/Console.hh>
 
 #include "../../../twinform/testing/oracles/headers/loading.hh"
@@ -19,7 +20,7 @@ using Commands = std::map<std::string, double>;
 struct Options {
   std::string folder, engine;
   unsigned steps = 0, every = 0, seconds = 20;
-  double dt = 0.001, start = 0.0;
+  double dt = 0.001, start = 0.0, period = 0.0;
   std::string ground;  // the height of a plane, if there is one
   Commands velocities, forces;
 };
@@ -101,13 +102,18 @@ const double *command(const Commands &commands, const std::string &name) {
   return found == commands.end() ? nullptr : &found->second;
 }
 
+// the share of a force at a time: all of it, or that of a sine
+double share(const Options &options, const double time) {
+  return options.period == 0.0 ? 1.0 : std::sin(2.0 * M_PI * time / options.period);
+}
+
 template <typename Kind>
-void drive(const scene::Scene<Kind> &scene, const Options &options) {
+void drive(const scene::Scene<Kind> &scene, const Options &options, const double time) {
   if constexpr (Kind::JOINTS) {
     for (const auto &joint : scene.joints) {
       if (!joint.made || joint.made->GetDegreesOfFreedom() == 0) continue;
       if (const double *value = command(options.velocities, joint.name)) joint.made->SetVelocityCommand(0, *value);
-      if (const double *value = command(options.forces, joint.name)) joint.made->SetForce(0, *value);
+      if (const double *value = command(options.forces, joint.name)) joint.made->SetForce(0, *value * share(options, time));
     }
   }
 }
@@ -132,7 +138,7 @@ std::vector<std::string> moments(const scene::Scene<Kind> &scene, const Options 
   input.Get<Duration>() = std::chrono::duration_cast<Duration>(std::chrono::duration<double>(options.dt));
   for (unsigned step = 1; step <= options.steps; ++step) {
     child::stage("step " + std::to_string(step));
-    drive(scene, options);
+    drive(scene, options, (step - 1) * options.dt);
     scene.world->Step(output, state, input);
     const bool wanted = options.every != 0 && step % options.every == 0;
     if (wanted || step == options.steps) out.push_back(moment(scene, step * options.dt));
@@ -214,6 +220,7 @@ Options parsed(const std::vector<std::string> &words) {
     if (name == "--seconds") options.seconds = static_cast<unsigned>(std::stoul(value));
     if (name == "--dt") options.dt = std::stod(value);
     if (name == "--start") options.start = std::stod(value);
+    if (name == "--period") options.period = std::stod(value);
     if (name == "--velocity") set(options.velocities, value);
     if (name == "--force") set(options.forces, value);
   }

@@ -25,6 +25,8 @@ class Settings:
     """The velocity that is commanded before each step, in rad/s or m/s, by joint."""
     forces: Mapping[str, float] = field(default_factory=dict[str, float])
     """The force that is applied in each step, in N m or N, by joint."""
+    period: float = 0.0
+    """Forces swing as a sine of this period in s, from 0 on; 0 for forces that stay."""
     folders: tuple[Path, ...] = ()
     """Where files that are included as `model://NAME`, or by a relative path, are looked up."""
     seconds: int = 20
@@ -33,7 +35,7 @@ class Settings:
     def arguments(self) -> Iterator[str]:
         """As options of the program."""
         yield from ("--steps", str(self.steps), "--dt", repr(self.dt), "--every", str(self.every))
-        yield from ("--start", repr(self.start), "--seconds", str(self.seconds))
+        yield from ("--start", repr(self.start), "--seconds", str(self.seconds), "--period", repr(self.period))
         if self.ground is not None:
             yield from ("--ground", repr(self.ground))
         for option, values in (("--velocity", self.velocities), ("--force", self.forces)):

@@ -76,6 +76,7 @@ _HERE = "twinform.testing.oracles"
 _EXACT, _COARSE = 1e-9, 1e-6
 _SDF = {".sdf": _EXACT, ".world": _EXACT}
 _URDF = {".urdf": _EXACT}
+_MJCF = {".xml": _EXACT}
 _COARSE_URDF = {".urdf": _COARSE}
 
 
@@ -106,7 +107,7 @@ def _libsdformat() -> bool:
 
 
 _LIST = (
-    Engine("drake", _SDF | _URDF, _EXTRA, _HERE + ".drake", partial(_importable, "pydrake")),
+    Engine("drake", _SDF | _URDF | _MJCF, _EXTRA, _HERE + ".drake", partial(_importable, "pydrake")),
     Engine("libsdformat", _SDF | _COARSE_URDF, libsdformat.MISSING, _HERE + ".libsdformat_robot", _libsdformat),
     Engine("mujoco", _URDF, _EXTRA, _HERE + ".mujoco", partial(_importable, "mujoco")),
     Engine("pinocchio", _URDF, _EXTRA, _HERE + ".pinocchio", partial(_importable, "pinocchio")),
