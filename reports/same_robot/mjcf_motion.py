@@ -31,10 +31,11 @@ beyond it is examined, in this order:
   ({FINE * 1000:g} ms) in one of the engines alone, change the end by at least a third of what is between the engines.
   So it is these that decide, not what is written: a robot that tips over, or rolls, ends elsewhere for any small
   change.
-* **a limit**, **mimics and loops**, **friction of joints**, **friction by direction**: the robot is driven once more
-  without any of them, and then ends within the bound, or where details decide as above. DART stops a joint at its limit
-  within a step, and holds it by its friction; in MuJoCo these are soft constraints, and a joint that is drawn beyond
-  its limit is pushed back at once. gz-physics 5 has neither mimics nor loops. MJCF has neither `slip1` nor `fdir1`.
+* **a limit**, **mimics and loops**, **friction of joints**, **links without gravity**, **friction by direction**: the
+  robot is driven once more without any of them, and then ends within the bound, or where details decide as above. DART
+  stops a joint at its limit within a step, and holds it by its friction; in MuJoCo these are soft constraints, and a
+  joint that is drawn beyond its limit is pushed back at once. gz-physics 5 has no mimics and no loops, and gravity for
+  all links. MJCF has no `slip1` and no `fdir1`.
 * what `mjcf_motion.toml` says of single robots."""
 
 

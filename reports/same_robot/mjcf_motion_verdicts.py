@@ -101,5 +101,7 @@ def _constraints(ends: Driven, setup: Setup) -> Iterator[str]:
         yield "mimics and loops"
     if "frictionloss=" in setup.mjcf:
         yield "friction of joints"
+    if "gravcomp=" in setup.mjcf:
+        yield "links without gravity"
     if setup.ground is not None and _BY_DIRECTION.search(setup.sdf.read_bytes()):
         yield "friction by direction"

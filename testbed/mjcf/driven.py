@@ -34,9 +34,9 @@ _STIFF = (0.002, 1.0)
 _SPEED = (("limit", "velocity"),)
 _CONSTRAINTS = (
     ("limit", "lower"), ("limit", "upper"), ("dynamics", "friction"),
-    ("ode", "mu2"), ("ode", "fdir1"), ("ode", "slip1"), ("ode", "slip2"),
+    ("link", "gravity"), ("ode", "mu2"), ("ode", "fdir1"), ("ode", "slip1"), ("ode", "slip2"),
 )  # fmt: skip
-"""Elements with what holds them: ends of ranges, the friction of joints, and of surfaces what depends on directions."""
+"""Elements with what holds them: ends of ranges, friction of joints, links without gravity, friction by direction."""
 _NEAR = 1e-3
 """How near to a limit a joint has reached it, in rad or m."""
 _HINGE_OR_SLIDE = (2, 3)
@@ -101,7 +101,7 @@ def prepared(sdf: str, file: Path, paths: Sequence[Path] = (), *, on_ground: boo
 
 
 def without_constraints(setup: Setup, paths: Sequence[Path]) -> Setup:
-    """The robot without limits and friction of joints, mimics, loops, and friction that depends on directions."""
+    """The robot without limits and friction of joints, mimics, loops, and all that `_CONSTRAINTS` lists."""
     file = setup.sdf.with_suffix(".free.sdf")
     file.write_bytes(_without(setup.sdf.read_bytes(), _CONSTRAINTS))
     mjcf = etree.fromstring(without_meshes(twinform.convert(file, to="mjcf", paths=paths).text).encode())

@@ -115,14 +115,14 @@ class SetSurface(Pass):
     def _set_in_gazebo(self, model: Model, links: list[str]) -> Model:
         values = {name: format_value(value) for name, value in self._values().items()}
         tags = {tag: values[name] for name, tag in _TAGS.items() if name in values}
-        model = _set_tags(model, links, tags)
+        model = set_tags(model, links, tags)
         for name, path in _PATHS.items():
             if name in values:
                 model = _set_element(model, links, path, values[name])
         return model
 
 
-def _set_tags(model: Model, links: Iterable[str], tags: Mapping[str, str]) -> Model:
+def set_tags(model: Model, links: Iterable[str], tags: Mapping[str, str]) -> Model:
     """The model with flat tags for some links; existing tags get the new value wherever they stand."""
 
     def change(content: Content) -> Content:

@@ -37,6 +37,7 @@ BUILT_IN: Mapping[str, str] = {
     "rewrite-uris": "appearance.rewrite_uris:RewriteUris",
     "ros2-control-from-actuators": "joints.ros2_control_from_actuators:Ros2ControlFromActuators",
     "ros2-control-from-transmissions": "joints.ros2_control_from_transmissions:Ros2ControlFromTransmissions",
+    "self-collide": "appearance.self_collide:SelfCollide",
     "set-surface": "appearance.set_surface:SetSurface",
     "simplify-collisions": "meshes.simplify_collisions:SimplifyCollisions",
     "split-massless": "inertia.split_massless:SplitMassless",
