@@ -176,7 +176,7 @@ demo: $(BIN)/twinform ## the rover to SDF and back: what is found, what became o
 	$(BIN)/twinform diff examples/rover.urdf $(DEMO)/rover.urdf
 	@echo; echo "The files are in $(DEMO). The command is $(BIN)/twinform; try $(BIN)/twinform --help"
 
-report: $(if $(NAME),$(ORACLES),$(SYNCED)) $(if $(filter who_reads_what loaders portable usd who_reads_it,$(NAME)),$(READERS)) $(if $(filter meshes fixes_and_passes packages ros2_packages worlds_and_packages,$(NAME)),$(ROBOTS)) $(if $(filter performance speed,$(NAME)),$(PEERS)) ## measure a section or a page: NAME=lumping ARGS="--every 50"; which there are without NAME
+report: $(if $(NAME),$(ORACLES),$(SYNCED)) $(if $(filter who_reads_what loaders portable usd who_reads_it,$(NAME)),$(READERS)) $(if $(filter meshes mjcf_meshes same_robot fixes_and_passes packages ros2_packages worlds_and_packages,$(NAME)),$(ROBOTS)) $(if $(filter performance speed,$(NAME)),$(PEERS)) ## measure a section or a page: NAME=lumping ARGS="--every 50"; which there are without NAME
 	@$(BIN)/python -m reports $(NAME) $(ARGS)
 
 report: export TWINFORM_NODE_MODULES = $(CURDIR)/out/readers/node_modules

@@ -1,17 +1,16 @@
 """Real meshes of packages that are installed, and of folders that are named: so many of each format, of every size."""
 
-import importlib.util
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+from testbed.installed_robots import installed_folders
+
 MOST = {"stl": 30, "dae": 30, "obj": 22, "ply": 8, "glb": 5, "gltf": 8}
 """How many of each format are looked at."""
-_PACKAGES = ("pybullet_data", "pydrake", "cmeel")
 _LARGEST = 2**20
 _ASSIMP = Path("/usr/share/assimp/models")
 """Debian's package assimp-testmodels: files of every format, many of them odd or broken."""
-_FOLDERS = {"cmeel": "../cmeel.prefix/share/example-robot-data", "pydrake": "share"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,7 +29,8 @@ class MeshFile:
 def chosen(folders: Iterable[str]) -> list[MeshFile]:
     """The meshes to look at: of each format, as many as its share says, from the smallest to the largest."""
     named = [_ASSIMP, *map(Path, folders)]
-    every = [*_installed(), *(each for folder in named for each in _below(folder, folder.name))]
+    folders_by_name = [*installed_folders(), *((folder.name, folder) for folder in named)]
+    every = [each for name, folder in folders_by_name for each in _below(folder, name)]
     found: list[MeshFile] = []
     for kind, most in MOST.items():
         own = sorted(
@@ -39,15 +39,6 @@ def chosen(folders: Iterable[str]) -> list[MeshFile]:
         step = max(1.0, len(own) / most)
         found += [own[int(at * step)] for at in range(min(most, len(own)))]
     return sorted(found, key=lambda each: (each.path.stat().st_size, each.name))
-
-
-def _installed() -> Iterator[MeshFile]:
-    for package in _PACKAGES:
-        spec = importlib.util.find_spec(package)
-        if spec is None or spec.origin is None:
-            continue
-        folder = (Path(spec.origin).parent / _FOLDERS.get(package, ".")).resolve()
-        yield from _below(folder, folder.name if package == "cmeel" else package)
 
 
 def _below(folder: Path, name: str) -> Iterator[MeshFile]:

@@ -9,6 +9,7 @@ SECTIONS = {
     "versions": "Versions of SDF",
     "older_urdf": "Versions of URDF",
     "mjcf": "MJCF",
+    "mjcf_meshes": "MJCF with meshes",
     "mjcf_packages": "MJCF of published packages",
     "mjcf_in_drake": "MJCF in Drake",
     "mjcf_motion": "MJCF in motion",

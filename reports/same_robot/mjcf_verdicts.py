@@ -65,8 +65,8 @@ def _urdf(file: CorpusFile) -> Outcome:
     except UnreadableError:
         other = found
     if not other:
-        return Outcome(file.name, URDF, Verdict.ABSENT, _first(found))
-    return Outcome(file.name, URDF, Verdict.DIFFERENT, _first(other))
+        return Outcome(file.name, URDF, Verdict.ABSENT, shown(found))
+    return Outcome(file.name, URDF, Verdict.DIFFERENT, shown(other))
 
 
 def _model(file: CorpusFile) -> Outcome:
@@ -81,7 +81,7 @@ def _model(file: CorpusFile) -> Outcome:
         found = differences_from_drake(file.path, made)
     except UncomparableError as error:
         return Outcome(file.name, MODEL, Verdict.TAKEN, str(error))
-    return Outcome(file.name, MODEL, Verdict.DIFFERENT if found else Verdict.SAME, _first(found))
+    return Outcome(file.name, MODEL, Verdict.DIFFERENT if found else Verdict.SAME, shown(found))
 
 
 def _world(file: CorpusFile) -> Outcome:
@@ -102,6 +102,6 @@ def _written(file: CorpusFile, kind: str, text: bytes | None = None) -> Compiled
         return Outcome(file.name, kind, Verdict.REFUSED, str(error))
 
 
-def _first(found: list[str], most: int = 3) -> str:
+def shown(found: list[str], most: int = 3) -> str:
     """The first differences."""
     return "; ".join(found[:most] + ([f"and {len(found) - most} more"] if len(found) > most else []))

@@ -21,6 +21,8 @@ _OFF: tuple[str, ...] = ("fusestatic", "discardvisual", "balanceinertia", "strip
 """What MuJoCo does to a URDF unless it is told not to."""
 FREE, BALL, SLIDE, HINGE = range(4)
 """The types of joints, with MuJoCo's numbers."""
+MESH = 7
+"""The type of a geom that is a mesh."""
 
 
 class UnreadableError(Exception):
@@ -49,6 +51,11 @@ class GeomFacts(NamedTuple):
     kind: int
     touches: bool
     size: tuple[float, ...]
+
+    @property
+    def is_mesh(self) -> bool:
+        """Whether it is a mesh, which has the axes of its inertia: numbers and turns of a symmetric one are chance."""
+        return self.kind == MESH
 
 
 @dataclass(frozen=True)
@@ -105,7 +112,17 @@ class Compiled:
         model = self.model
         body = str(model.body(int(model.geom_bodyid[number])).name)
         touches = bool(model.geom_contype[number] or model.geom_conaffinity[number])
-        return GeomFacts(body, int(model.geom_type[number]), touches, tuple(map(float, model.geom_size[number])))
+        kind = int(model.geom_type[number])
+        size = () if kind == MESH else tuple(map(float, model.geom_size[number]))
+        return GeomFacts(body, kind, touches, size)
+
+    def bounds(self, number: int) -> Array:
+        """The least and the greatest coordinates of a mesh in the world, where it is now."""
+        model, mesh = self.model, int(self.model.geom_dataid[number])
+        start, count = int(model.mesh_vertadr[mesh]), int(model.mesh_vertnum[mesh])
+        turn, place = self.data.geom_xmat[number].reshape(3, 3), self.data.geom_xpos[number]
+        points = model.mesh_vert[start : start + count].astype(float) @ turn.T + place
+        return np.stack([points.min(axis=0), points.max(axis=0)])
 
     def at(self, positions: Array, velocities: Array) -> Motion:
         """The motion at positions and velocities, in the order of this model."""

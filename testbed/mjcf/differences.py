@@ -11,6 +11,8 @@ from testbed.mjcf.compiled import BALL, FREE, Array, Compiled, GeomFacts, JointF
 POSES = 20
 """So many random positions are compared."""
 TOLERANCE = 1e-9
+OF_MESHES = 1e-5
+"""The points of meshes have single precision in MuJoCo, and those of text files as many digits as were written."""
 _PLANAR = {"TX": "_x", "TY": "_y", "RZ": ""}
 """What our joints of a planar one are called where MuJoCo calls them NAME_TX, NAME_TY and NAME_RZ."""
 
@@ -65,26 +67,47 @@ def _match_geoms(
     left = dict.fromkeys(range(made.model.ngeom))
     pairs: list[tuple[int, int]] = []
     missing: list[str] = []
+    fits = _Fits(source, made, one, other)
     for number in range(source.model.ngeom):
-        facts, pose = source.geom(number), one.geoms[number]
-        fit = next(
-            (each for each in left if _is_same(facts, made.geom(each)) and _is_near(pose, other.geoms[each])), None
-        )
+        facts = source.geom(number)
+        fit = next((each for each in left if fits(number, each)), None)
         if fit is None:
             missing.append(f"geom {number} of body {facts.body!r} is missing: {facts}")
-        else:
-            left.pop(fit)
+            continue
+        left.pop(fit)
+        if not facts.is_mesh:  # where the bodies are tells where meshes go
             pairs.append((number, fit))
     return pairs, [*missing, *(f"geom {each} is new: {made.geom(each)}" for each in left)]
 
 
+class _Fits:
+    """Whether two geoms are of one shape at one place: meshes by the space that they take up."""
+
+    def __init__(self, source: Compiled, made: Compiled, one: Motion, other: Motion) -> None:
+        self._source = [source.geom(each) for each in range(source.model.ngeom)]
+        self._made = [made.geom(each) for each in range(made.model.ngeom)]
+        self._here = [_place(source, one, each) for each in range(source.model.ngeom)]
+        self._there = [_place(made, other, each) for each in range(made.model.ngeom)]
+
+    def __call__(self, number: int, each: int) -> bool:
+        facts = self._source[number]
+        if not _is_same(facts, self._made[each]):
+            return False
+        return _is_near(self._here[number], self._there[each], OF_MESHES if facts.is_mesh else TOLERANCE)
+
+
+def _place(model: Compiled, motion: Motion, number: int) -> Array:
+    return model.bounds(number) if model.geom(number).is_mesh else motion.geoms[number]
+
+
 def _is_same(one: GeomFacts, other: GeomFacts) -> bool:
-    sizes = np.allclose(one.size, other.size, rtol=TOLERANCE, atol=TOLERANCE)
-    return (one.kind, one.touches) == (other.kind, other.touches) and bool(sizes)
+    if (one.kind, one.touches) != (other.kind, other.touches):
+        return False
+    return bool(np.allclose(one.size, other.size, rtol=TOLERANCE, atol=TOLERANCE))
 
 
-def _is_near(one: Array, other: Array) -> bool:
-    return bool(np.allclose(one, other, rtol=0.0, atol=TOLERANCE * max(1.0, float(np.max(np.abs(one))))))
+def _is_near(one: Array, other: Array, tolerance: float) -> bool:
+    return bool(np.allclose(one, other, rtol=0.0, atol=tolerance * max(1.0, float(np.max(np.abs(one))))))
 
 
 def _motions(source: Compiled, made: Compiled, pairs: list[Pair], draw: np.random.Generator) -> list[str]:

@@ -182,6 +182,9 @@ def _convert_document(
     if not request.carriers and request.to != "mjcf":
         from twinform.compiler.input.mjcf.remainders import without_remainders  # noqa: PLC0415 - few ask for it
 
+        if request.to == "urdf" and request.model is None:  # afterwards the floor of a file looks like a robot
+            only = [each.full_name for each in candidates(document)]
+            request = replace(request, model=only[0] if len(only) == 1 and only[0] else None)
         document = without_remainders(document, sink)
     if request.folder is not None and isinstance(request.assets, LocalAssets) and request.assets.folder is not None:
         from twinform.compiler.moved_paths import moved  # noqa: PLC0415 - most results lie beside their source

@@ -119,3 +119,15 @@ def test_a_text_without_a_folder_has_no_includes(run: Run) -> None:
     assert done.exit_code == 1
     assert "<stdin>:2" in done.stdout
     assert "include-not-expanded" in done.stdout
+
+
+def test_a_floor_is_no_robot_without_carriers_either(run: Run, tmp_path: Path) -> None:
+    path = tmp_path / "arm.xml"
+    path.write_text(
+        '<mujoco model="arm"><worldbody><geom name="floor" type="plane" size="1 1 1"/><body name="base">'
+        '<geom name="rod" size="0.1"/></body></worldbody></mujoco>'
+    )
+    robot = run("convert", path, "--to", "urdf", "--no-carriers").stdout
+    assert robot.startswith('<?xml version="1.0"?>\n<robot name="arm">')
+    (tmp_path / "arm.urdf").write_text(robot)
+    assert run("sync", tmp_path / "arm.urdf", path, "--check").stdout.endswith("1 up to date\n")
