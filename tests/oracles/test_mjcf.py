@@ -6,6 +6,7 @@ from typing import Any
 
 import pytest
 from hypothesis import given, settings
+from lxml import etree
 
 import twinform
 from twinform.compiler import CompileError
@@ -19,6 +20,7 @@ pytest.importorskip("mujoco")
 from testbed.engines.readers.meshless import without_meshes as boxed  # noqa: E402
 from testbed.mjcf.compiled import UnreadableError, compile_mjcf, compile_urdf, without_meshes  # noqa: E402
 from testbed.mjcf.differences import differences  # noqa: E402
+from testbed.mjcf.mesh_robots import MissingFileError, mesh_robots, with_files  # noqa: E402
 
 _ROOT = Path(__file__).parents[2]
 _CASES = _ROOT / "tests/cases"
@@ -41,6 +43,16 @@ f 3 1 6
 f 2 3 6
 f 4 2 6
 f 1 4 6
+"""
+_TRIANGLE = """solid s
+facet normal 0 0 1
+outer loop
+vertex 0 0 0
+vertex 1 0 0
+vertex 0 1 0
+endloop
+endfacet
+endsolid
 """
 
 
@@ -80,6 +92,30 @@ def test_a_mesh_is_where_mujoco_puts_that_of_the_urdf(tmp_path: Path) -> None:
     made = twinform.convert(path, to="mjcf").text
     assert made.count("<mesh ") == 1
     assert differences(source, compile_mjcf(made, str(tmp_path))) == []
+    moved = compile_mjcf(made.replace('scale="1 2 0.5"', 'scale="1 2 0.501"'), str(tmp_path))
+    assert any("geom" in each and "missing" in each for each in differences(source, moved))
+
+
+def test_a_robot_with_meshes_of_a_package_is_made_readable(tmp_path: Path) -> None:
+    pytest.importorskip("trimesh")
+    robot, made = tmp_path / "arm" / "urdf" / "arm.urdf", tmp_path / "made"
+    for folder in (robot.parent, made, tmp_path / "arm" / "meshes"):
+        folder.mkdir(parents=True)
+    (tmp_path / "arm/meshes/flat.STL").write_text(_TRIANGLE)
+    (tmp_path / "arm/meshes/part.obj").write_text(_OCTAHEDRON)
+    meshes = ("package://arm/meshes/part.obj", "package://arm/meshes/flat.STL", "../meshes/part.obj")
+    visuals = "".join(f'<visual><geometry><mesh filename="{each}"/></geometry></visual>' for each in meshes)
+    robot.write_text(f'<robot name="r"><link name="a">{visuals}</link></robot>')
+    assert mesh_robots(tmp_path) == [robot]
+    part, flat, same = (
+        Path(each.get("filename", "")) for each in etree.fromstring(with_files(robot, made)).iter("mesh")
+    )
+    assert part.samefile(same)
+    assert part.samefile(tmp_path / "arm/meshes/part.obj")
+    assert (flat.parent, flat.suffix) == (made, ".obj")
+    (tmp_path / "arm/meshes/part.obj").unlink()
+    with pytest.raises(MissingFileError, match=r"part\.obj"):
+        with_files(robot, made)
 
 
 @given(strategies.robots(shapes=_SHAPES))
