@@ -73,7 +73,6 @@ def convert(
             from the folder of the result.
         default_classes: Whether MJCF has classes of defaults for what many of its elements say alike.
         side_files: Whether meshes may be made that have to lie beside the result, such as that of an ellipsoid.
-        mesh_folder: The folder beside the result for meshes of shapes that MJCF lacks.
         comments: Whether comments of the source go along.
         model: The model that is meant, where a file has several.
         keep_physics: Refuse passes for consumers that change masses, inertias, joints or limits.

@@ -28,7 +28,6 @@ _OTHERS = {
     "side_files": Option(
         help="Whether meshes may be made that have to lie beside the result, such as that of an ellipsoid.", flag="-o"
     ),
-    "mesh_folder": Option(help="The folder beside the result for meshes of shapes that MJCF lacks.", flag="-o"),
     "keep_physics": Option(help="Refuse passes for consumers that change masses, inertias, joints or limits."),
 }
 """Options that commands declare themselves, each in its own way."""
