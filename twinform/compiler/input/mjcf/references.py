@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import NamedTuple
 
 from twinform.schemas import XmlElement
+from twinform.schemas.facts import named_kinds
 
 KINDS = {
     "body": "body",
@@ -35,17 +36,8 @@ _OTHER_KINDS = {
     ("deformable", "flex"): "flex",
     ("deformable", "skin"): "skin",
 }
-_OF_ATTRIBUTE = {
-    "body": "body", "body1": "body", "body2": "body", "subtree1": "body", "subtree2": "body",
-    "joint": "joint", "joint1": "joint", "joint2": "joint", "jointinparent": "joint",
-    "geom": "geom", "geom1": "geom", "geom2": "geom",
-    "site": "site", "site1": "site", "site2": "site", "refsite": "site", "cranksite": "site", "slidersite": "site",
-    "sidesite": "site",
-    "tendon": "tendon", "tendon1": "tendon", "tendon2": "tendon",
-    "actuator": "actuator", "camera": "camera", "flex": "flex", "mesh": "mesh", "material": "material",
-    "hfield": "hfield", "texture": "texture",
-}  # fmt: skip
-"""The kind that an attribute refers to, in all elements that have it."""
+_NO_PARTS = frozenset({"default", "frame", "instance", "model"})
+"""What attributes name and nothing in a canonical tree is: it is gone there, or is looked up elsewhere."""
 _OF_OBJECT = {"objname": "objtype", "refname": "reftype"}
 """The attributes whose kind another attribute says."""
 _OBJECTS = {"xbody": "body", "key": "key"}
@@ -90,21 +82,20 @@ def references_in(element: XmlElement, kinds: Iterable[str] | None = None) -> It
 
 def own_references(element: XmlElement) -> Iterator[Reference]:
     """Yield the references of one element."""
+    kinds = named_kinds("mjcf")
     for key, value in element.items():
         name = str(key)
-        kind = _OF_ATTRIBUTE.get(name)
+        kind = kinds.get(name)
         if name in _OF_OBJECT:
             said = element.get(_OF_OBJECT[name], "")
             kind = kind_of_object(said)
-        elif name == "target" and element.tag in {"camera", "light"}:
-            kind = "body"
-        if kind and value and not _is_no_reference(element, name):
+        if kind and kind not in _NO_PARTS and value and not _is_list(element, name):
             yield Reference(element, name, kind, str(value))
 
 
-def _is_no_reference(element: XmlElement, name: str) -> bool:
-    """Whether an attribute that is called as a reference is something else, or a list of names."""
-    return element.tag == "flex" and name == "body"
+def _is_list(element: XmlElement, name: str) -> bool:
+    """Whether an attribute that is called as a reference is a list of names."""
+    return element.tag == "flex" and name in {"body", "node"}
 
 
 def names_in(elements: Iterable[XmlElement]) -> dict[str, set[str]]:
