@@ -30,6 +30,8 @@ _UNSEEN = ("visual", "collision", "sensor", "light", "physics", "wind", "magneti
 """Elements that have nothing to do with mass and motion; meshes among them may be missing."""
 _TYPES = {1: "ball", 2: "prismatic", 3: "revolute"}
 _FLOATS = 1e-5
+_ALMOST_NOTHING = "1e-22"
+"""In kg and kg m^2: Drake asks for some mass."""
 _NOTHING = 1e-11
 """In kg: what weighs less weighs nothing in MJCF."""
 
@@ -123,8 +125,14 @@ def _of_joints(source: Compiled, trees: Iterable[Tree]) -> Iterator[str]:
 
 
 def _bare(text: str, loops: Collection[str] = ()) -> bytes:
-    """Return a text without shapes and all else that does not matter, and without the joints that close loops."""
+    """Return a text without shapes and all else that does not matter, and without the joints that close loops.
+
+    Links that stand between two joints of one body weigh next to nothing there, which a body of a fly is not more than.
+    """
     root = etree.fromstring(text.encode())
+    for made in root.iterfind(f".//link/{{{NAMESPACE}}}made/.."):
+        for each in made.iter("mass", "ixx", "iyy", "izz"):
+            each.text = _ALMOST_NOTHING
     closing = [each for each in root.iter("joint") if each.get("name") in loops]
     for each in [*root.iter(*_UNSEEN), *root.iter(f"{{{NAMESPACE}}}*"), *closing]:
         holder = each.getparent()

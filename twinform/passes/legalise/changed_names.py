@@ -18,10 +18,11 @@ from typing import Any, ClassVar
 
 from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import STALE_CARRIER
-from twinform.ir import Collision, Color, Element, Format, Frame, Joint, Light, Link, Model, Sensor, Visual
+from twinform.ir import Collision, Color, Element, Format, Frame, Joint, Light, Link, Model, Opaque, Sensor, Visual
 from twinform.ir.node import NOT_CONTENT
 from twinform.passes.carriers.annotations import (
     AnyNode,
+    annotation,
     came_from,
     find_annotation,
     with_annotation,
@@ -203,12 +204,15 @@ def source_name(node: Link | Joint | Frame | Collision | Visual | Light | Sensor
 
 
 def with_old_name(node: AnyNode, name: str) -> AnyNode:
-    """The node with an annotation of its name, before it is renamed; blanks need an attribute."""
+    """The node with an annotation of its name, before it is renamed."""
     old: Any = getattr(node, "name", None)
+    return node.copy(opaque=(old_name(old, name), *node.opaque))
+
+
+def old_name(old: str, name: str) -> Opaque:
+    """The annotation of the name that a part had before this one; blanks around it need an attribute."""
     is_plain = old == old.strip()
-    return with_annotation(
-        node, NAME, old if old and is_plain else None, {"instead_of": name, "was": None if is_plain else old}
-    )
+    return annotation(NAME, old if old and is_plain else None, {"instead_of": name, "was": None if is_plain else old})
 
 
 def _model_by_its_name(model: Model) -> Model:

@@ -208,7 +208,7 @@ class TreeLowering:
     def _rest_of_free(self, piece: Piece) -> tuple[Opaque, ...]:
         if piece.tag == "joint":
             piece.take("type")
-        return self._keeper.rest(piece)
+        return self._keeper.rest(piece, is_marked=piece.tag == "joint")  # it is no `freejoint`
 
     def _frames(self, body: Piece, link: str) -> None:
         for site in body.all_of("site"):

@@ -10,7 +10,7 @@ from twinform.compiler.input.mjcf.pieces import Piece
 from twinform.ir import Node, Opaque
 from twinform.ir.frames import WORLD
 from twinform.passes.carriers.annotations import MADE_NAME, annotation, with_annotation
-from twinform.passes.legalise.changed_names import NAME
+from twinform.passes.legalise.changed_names import old_name
 from twinform.passes.shared.nodes import reserve_name
 
 AnyNode = TypeVar("AnyNode", bound=Node)
@@ -45,7 +45,7 @@ class NameScope:
             return with_annotation(node, MADE_NAME, given)
         if given == piece.name:
             return node
-        return with_annotation(node, NAME, piece.name, {"instead_of": given})
+        return node.copy(opaque=(old_name(piece.name, given), *node.opaque))
 
 
 def safe_name(name: str) -> str:
@@ -58,4 +58,4 @@ def name_mark(name: str | None, given: str) -> tuple[Opaque, ...]:
     """Return the annotation of a name that MJCF does not have, or has otherwise."""
     if name is None:
         return (annotation(MADE_NAME, given),)
-    return () if name == given else (annotation(NAME, name, {"instead_of": given}),)
+    return () if name == given else (old_name(name, given),)

@@ -122,8 +122,9 @@ class _BodyTree:
 
     def _body(self, name: str, hold: Hold, above: dict[str, Body]) -> Body:
         link = self.tree.links[name]
-        wish = self.context.wish("body", scope_of(name), link, source_name(link))
+        wish = self.context.wish("body", scope_of(name), source_name(link))
         written = WORLD if name == self.world else self.context.name("body", wish, link) or name
+        self.context.note_made_name("body", link, written)
         self.context.written_bodies[name] = written
         moves = name not in self.context.static_links and (
             not hold.joints

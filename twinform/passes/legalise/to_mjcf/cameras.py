@@ -30,7 +30,9 @@ def camera_element(
     context: MjcfContext, sensor: Sensor, camera: Element, body: Body, place: Transform
 ) -> Element | None:
     """The camera of a `<camera>` in a sensor at a place in its body; None where no plane image is as wide."""
-    name = context.name("camera", context.wish("camera", body.scope, sensor, _name(sensor, camera)), sensor.location)
+    wish = context.wish("camera", body.scope, _name(sensor, camera))
+    name = context.name("camera", wish, sensor.location)
+    context.note_made_name("camera", sensor, name)
     view = child_number(camera, "horizontal_fov", default=FIELD_OF_VIEW)
     if not 0 < view < math.pi:
         return None

@@ -41,14 +41,14 @@ def _close(context: MjcfContext, between: JointBetween) -> None:
         context.account(rules.NOT_IN_MJCF, message, joint.location, 0)
         return
     if joint.type == "fixed":
-        _add(context, between, [_equality("weld", _name(context, between, "weld"), ends, joint)])
+        _add(context, between, [_equality("weld", _name(context, between), ends, joint)])
         return
     points = _points(context, between)
     if not points:
         message = f"{joint.type} joint {joint.name!r} closes a loop, and MuJoCo holds loops together at points alone"
         context.account(rules.NOT_IN_MJCF, message, joint.location, 0)
         return
-    name = _name(context, between, "connect")
+    name = _name(context, between)
     names = [name, f"{name}_axis"][: len(points)]
     pairs = zip(names, points, strict=True)
     made = [_equality("connect", name, [*ends, ("anchor", rounded(point))], joint) for name, point in pairs]
@@ -58,8 +58,8 @@ def _close(context: MjcfContext, between: JointBetween) -> None:
         context.sink.account(Fate.APPROXIMATED, rules.NOT_IN_MJCF, message, joint.location, 0)
 
 
-def _name(context: MjcfContext, between: JointBetween, tag: str) -> str:
-    return context.wish(tag, scope_of(between.name), between.joint, source_name(between.joint))
+def _name(context: MjcfContext, between: JointBetween) -> str:
+    return context.wish("equality", scope_of(between.name), source_name(between.joint))
 
 
 def _add(context: MjcfContext, between: JointBetween, elements: list[Element]) -> None:
@@ -67,6 +67,7 @@ def _add(context: MjcfContext, between: JointBetween, elements: list[Element]) -
     for each in elements:
         name = context.name("equality", each.get("name"), between.joint.location) or between.name
         names.append(name)
+        context.note_made_name(each.name, between.joint, name)
         context.add("equality", each.copy(attributes=(("name", name), *each.attributes[1:])))
     context.written_joints[between.name] = tuple(names)
 

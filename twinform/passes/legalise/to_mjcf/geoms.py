@@ -94,7 +94,7 @@ def _geom(context: MjcfContext, body: Body, part: AnyPart, shape: Solid, more: A
     name = context.name_in(body, "geom", source_name(part), part)
     if name is not None:
         context.written_geoms[id(part)] = name
-        context.note_made_name("geom", part)
+        context.note_made_name("geom", part, name)
     at = context.resolve(part.pose, body).compose(shape.at)
     attributes = [("name", name), *shape.attributes, *placement(at), *more]
     return with_kept(make_element("geom", attributes, (), part.source), part)

@@ -63,8 +63,9 @@ def _elements(context: MjcfContext, body: Body, between: JointBetween) -> Iterat
     if joint.type in TWO_AXES:
         yield from _two_axes(context, body, between, at)
         return
-    name = _name(context, between, context.wish("joint", scope_of(between.name), joint, source_name(joint)))
+    name = _name(context, between, context.wish("joint", scope_of(between.name), source_name(joint)))
     context.written_joints[between.name] = (name,)
+    context.note_made_name("joint", joint, name)
     element = _element(context, body, between, at, joint.axis, name)
     yield with_kept_joint(element, joint)
 

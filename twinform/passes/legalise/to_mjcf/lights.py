@@ -41,7 +41,7 @@ def world_lights(context: MjcfContext) -> list[Element]:
 
 def _light(context: MjcfContext, light: Light, place: Transform) -> Element:
     name = context.name("light", source_name(light), light.location)
-    context.note_made_name("light", light)
+    context.note_made_name("light", light, name)
     return with_kept(make_element("light", [("name", name), *light_attributes(light, place)], (), light.source), light)
 
 

@@ -34,7 +34,7 @@ def _frame_site(context: MjcfContext, scoped: ScopedFrame, link: str | None) -> 
 
 def _name(context: MjcfContext, name: str, frame: Frame) -> str:
     """The name that a frame had in its source, unless that is the name of another frame here."""
-    wanted = context.wish("site", scope_of(name), frame, source_name(frame))
+    wanted = context.wish("site", scope_of(name), source_name(frame))
     taken = context.names.setdefault("site", set())
     if wanted in taken:
         return name

@@ -183,20 +183,17 @@ class MjcfContext:
         """Note what MJCF leaves of a node, whose fields and untyped elements it says in part."""
         self.left[id(node)] = (node, left)  # the node too, which keeps its identity from being used again
 
-    def wish(self, kind: str, scope: str, part: Node, own: str) -> str:
+    def wish(self, kind: str, scope: str, own: str) -> str:
         """The name that a part in a scope should have in MJCF: its own, with the names of the models around it.
 
         What was read of one file of MJCF has its own names again.
         """
-        if not self.is_of_mjcf or own in self.names.get(kind, ()):
-            return scope + own
-        self.note_made_name(kind, part)
-        return own
+        return own if self.is_of_mjcf and own not in self.names.get(kind, ()) else scope + own
 
-    def note_made_name(self, kind: str, part: Node) -> None:
-        """Note that a part has a name here alone, if it has none in MJCF and was not renamed since."""
-        if is_made_name(part):
-            self.unnamed.add((kind, getattr(part, "name", "")))
+    def note_made_name(self, kind: str, part: Node, written: str | None) -> None:
+        """Note that a part is called so here alone, if it has no name in MJCF and was not renamed since."""
+        if written is not None and self.is_of_mjcf and is_made_name(part):
+            self.unnamed.add((kind, written))
 
     def name(self, kind: str, wanted: str | None, where: Location | Sourced) -> str | None:
         """A name that no other part of this kind has: the one that is wanted, or with a number behind it.
