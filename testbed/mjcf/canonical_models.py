@@ -27,6 +27,7 @@ _NOT_COMPARED = frozenset({
 """Names of their own, memory, and the boxes around geoms: these follow from others, in single precision."""
 _PATHS = ("_pathadr", "pathadr")
 _TOLERANCE = 1e-9
+_POSITIONS = frozenset({"qpos0", "qpos_spring"})
 _OF_INERTIA = frozenset({"body_iquat", "body_inertia"})
 _OF_DRAWN_TENDONS = frozenset({"tendon_rgba", "tendon_width", "tendon_matid"})
 """A fixed tendon takes these of its class, draws nothing, and has no attributes for them."""
@@ -90,6 +91,7 @@ def differences(mujoco: Any, one: Any, other: Any) -> list[str]:
         found = [name for name in found if name not in _OF_INERTIA]
     if "actuator_ctrlrange" in found and _are_equal(np, _controls(np, one), _controls(np, other)):
         found.remove("actuator_ctrlrange")  # some actuators cannot say a range that does not limit
+    found = [name for name in found if name not in _POSITIONS or not _are_positions(np, name, one, other)]
     if "names" in found or one.names != other.names:
         found.append("names")
     if _has_fixed_tendons(mujoco, one):
@@ -122,6 +124,18 @@ def _are_turns(np: Any, name: str, a: Any, b: Any) -> bool:
     if not name.endswith("quat") or a.shape != b.shape:
         return False
     return bool(np.allclose(np.abs((a * b).sum(axis=-1)), 1.0, rtol=0, atol=_TOLERANCE))
+
+
+def _are_positions(np: Any, name: str, one: Any, other: Any) -> bool:
+    """Tell whether two positions of all joints are the same, whatever the signs of quaternions in them are."""
+    a, b = (np.array(getattr(each, name)) for each in (one, other))
+    if a.shape != b.shape:
+        return False
+    for kind, start in zip(one.jnt_type, one.jnt_qposadr, strict=True):
+        turn = slice(start + 3, start + 7) if kind == 0 else slice(start, start + 4 * (kind == 1))
+        if (a[..., turn] * b[..., turn]).sum() < 0:
+            b[..., turn] *= -1
+    return _are_equal(np, a, b)
 
 
 def _controls(np: Any, model: Any) -> Any:

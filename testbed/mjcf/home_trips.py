@@ -17,7 +17,7 @@ from twinform.schemas import XmlElement
 
 _COMPUTED = frozenset({
     "bvh_aabb", "geom_sameframe", "body_sameframe", "dof_length", "meansize", "meanmass", "body_simple",
-    "dof_simplenum", "site_sameframe",
+    "dof_simplenum", "site_sameframe", "meaninertia",
 })  # fmt: skip
 """Arrays that MuJoCo computes of others, with single bits for whether these are exactly equal."""
 _FLOATS = 1e-5

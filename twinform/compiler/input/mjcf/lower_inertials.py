@@ -19,7 +19,7 @@ from twinform.ir.solids import (
     turned,
     with_mass,
 )
-from twinform.ir.transform import Matrix3, Transform
+from twinform.ir.transform import Matrix3, Transform, rounded
 from twinform.passes.carriers.annotations import with_annotation
 from twinform.passes.carriers.token_mass import TOKEN, UNSAID
 
@@ -27,6 +27,9 @@ DENSITY = 1000.0
 """In kg/m^3, of a geom that says nothing about its mass."""
 LEAST = 1e-15
 """In kg or kg m^2: what is less counts as nothing in MuJoCo."""
+
+_NOISE = 1e-14
+"""Products of inertia below this share of the moments are none."""
 
 SolidOf = Callable[[Piece, float], Solid | None]
 """Fills the shape of a geom, in its own frame, with a density in kg/m^3; None for a shape without an inside."""
@@ -97,8 +100,17 @@ def body_inertia(body: Piece, settings: MassSettings, solid_of: SolidOf) -> Writ
     else:
         counted = () if settings.from_geoms == "false" else _solids(body, settings, solid_of)
         solid = combined([each for each in counted if each.mass > LEAST])
-        found = WrittenInertia(solid, Transform(), is_written=False, piece=body)
+        found = WrittenInertia(_without_noise(solid), Transform(), is_written=False, piece=body)
     return found._replace(solid=_corrected(found.solid, settings))
+
+
+def _without_noise(solid: Solid) -> Solid:
+    """Return a solid with zeros for what only the rounding of sums has left beside numbers of its size."""
+    xx, yy, zz, *products = solid.inertia
+    least = _NOISE * (xx + yy + zz)
+    xy, xz, yz = (0.0 if abs(each) < least else each for each in products)
+    x, y, z = rounded(solid.center)
+    return Solid(solid.mass, (x, y, z), (xx, yy, zz, xy, xz, yz))
 
 
 def _written(piece: Piece) -> WrittenInertia:

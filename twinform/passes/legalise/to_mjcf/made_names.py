@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from twinform.ir import Element
 from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext
 
-_OTHERS = frozenset({"name", "mesh", "hfield", "material", "texture", "file", "type"})
+_OTHERS = frozenset({"name", "mesh", "hfield", "material", "texture", "file", "type", "objtype", "reftype"})
 """Attributes with other names than those of bodies, joints, geoms, cameras and lights."""
 
 
