@@ -133,6 +133,10 @@ def _bare(text: str, loops: Collection[str] = ()) -> bytes:
     for made in root.iterfind(f".//link/{{{NAMESPACE}}}made/.."):
         for each in made.iter("mass", "ixx", "iyy", "izz"):
             each.text = _ALMOST_NOTHING
+            if each.get("value"):  # in URDF
+                each.set("value", _ALMOST_NOTHING)
+        for each in made.iter("inertia"):
+            each.attrib.update({name: _ALMOST_NOTHING for name in ("ixx", "iyy", "izz") if each.get(name)})
     closing = [each for each in root.iter("joint") if each.get("name") in loops]
     for each in [*root.iter(*_UNSEEN), *root.iter(f"{{{NAMESPACE}}}*"), *closing]:
         holder = each.getparent()
