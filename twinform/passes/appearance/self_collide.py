@@ -12,10 +12,9 @@ from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import NOTHING_MATCHED, UNREAD_DOCUMENT
 from twinform.ir import Document, Element, Format, Link, Model, Opaque, rewrite
 from twinform.passes.appearance.set_surface import set_tags
-from twinform.passes.carriers.carriers import NAMESPACE
+from twinform.passes.carriers.carriers import NAMESPACE, declare_carriers
 from twinform.passes.framework.assets import AssetError
 from twinform.passes.framework.pass_base import AssetPass
-from twinform.passes.joints.transmission import declare_carriers
 from twinform.schemas import XmlElement
 
 _KEPT = f"{{{NAMESPACE}}}mjcf"

@@ -24,7 +24,9 @@ from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, Fate, Location, Rule
 from twinform.ir import (
     OPAQUE,
+    Document,
     Element,
+    Format,
     GazeboExtension,
     Model,
     Node,
@@ -87,6 +89,14 @@ def pack(pieces: Iterable[Opaque], dialect: str, about: Attributes = ()) -> tupl
 def bits_of_ours(*kinds: str) -> int:
     """The bits of the census for carriers and annotations of these kinds."""
     return bits_named(*(f"{_OURS}{kind}" for kind in kinds))
+
+
+def declare_carriers(document: Document) -> Document:
+    """The document with the prefix of carriers declared if it is SDF."""
+    pair = (PREFIX, NAMESPACE)
+    if document.format is Format.URDF or pair in document.namespaces:
+        return document
+    return document.copy(namespaces=(*document.namespaces, pair))
 
 
 def is_carrier(part: Opaque, dialect: str) -> bool:

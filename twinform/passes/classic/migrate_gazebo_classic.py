@@ -6,6 +6,7 @@ from pydantic import Field
 
 from twinform.diagnostics import DiagnosticSink, Fate
 from twinform.ir import Document, Format, Model
+from twinform.passes.carriers.carriers import declare_carriers
 from twinform.passes.classic.document_edits import (
     DeferredEdits,
     complete_worlds,
@@ -21,7 +22,6 @@ from twinform.passes.classic.moving import accept_trial, trial_sink
 from twinform.passes.classic.plugins import PluginMigration
 from twinform.passes.framework.pass_base import Pass
 from twinform.passes.joints.ros2_control_from_transmissions import Ros2ControlFromTransmissions
-from twinform.passes.joints.transmission import declare_carriers
 from twinform.passes.plugins.catalog import release
 from twinform.passes.plugins.catalog_types import Release
 from twinform.passes.plugins.release_names import ReleaseName

@@ -11,10 +11,9 @@ from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import ASSUMED_GAIN
 from twinform.ir import Document, Element, Joint, Limit, Model, Opaque, rewrite
 from twinform.ir.defaults import UNLIMITED
-from twinform.passes.carriers.carriers import NAMESPACE
+from twinform.passes.carriers.carriers import NAMESPACE, declare_carriers
 from twinform.passes.framework.pass_base import EVERY, Pass, matches, with_such_a_name
 from twinform.passes.joints.joint_commands import Interface, JointCommand, joint_commands
-from twinform.passes.joints.transmission import declare_carriers
 from twinform.schemas import format_value
 
 _DRIVEN = frozenset({"revolute", "continuous", "prismatic"})

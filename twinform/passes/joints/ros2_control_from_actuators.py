@@ -11,7 +11,7 @@ from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import FOREIGN_HARDWARE_INTERFACE
 from twinform.ir import Document, Element, Format, Joint, Model, Opaque, rewrite
 from twinform.passes.carriers.annotations import find_annotation
-from twinform.passes.carriers.carriers import NAMESPACE
+from twinform.passes.carriers.carriers import NAMESPACE, declare_carriers
 from twinform.passes.framework.pass_base import Pass
 from twinform.passes.joints.joint_commands import Interface
 from twinform.passes.joints.ros2_control import (
@@ -21,7 +21,7 @@ from twinform.passes.joints.ros2_control import (
     joint_element,
     system_element,
 )
-from twinform.passes.joints.transmission import as_parts, declare_carriers
+from twinform.passes.joints.transmission import as_parts
 from twinform.schemas import format_value
 
 _KEPT = f"{{{NAMESPACE}}}mjcf"

@@ -9,6 +9,7 @@ from pydantic import Field
 from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, Fate, Location, rules
 from twinform.ir import Document, Element, Format, Joint, Model, Opaque, rewrite
+from twinform.passes.carriers.carriers import declare_carriers
 from twinform.passes.framework.pass_base import Pass
 from twinform.passes.joints.ros2_control import (
     GAZEBO,
@@ -22,7 +23,6 @@ from twinform.passes.joints.transmission import (
     Transmission,
     as_parts,
     commands_of,
-    declare_carriers,
     location_of,
     read_transmission,
     replace_parts,

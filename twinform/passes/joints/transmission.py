@@ -11,8 +11,8 @@ from dataclasses import replace
 
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Location
-from twinform.ir import Document, Element, Format, Model, Opaque
-from twinform.passes.carriers.carriers import NAMESPACE, PREFIX, is_carrier, pack, unpack
+from twinform.ir import Element, Format, Model, Opaque
+from twinform.passes.carriers.carriers import is_carrier, pack, unpack
 
 _REDUCTION = "mechanicalReduction"
 _KNOWN = frozenset({"type", "plugin", "joint", "actuator", "param", _REDUCTION})
@@ -247,14 +247,6 @@ def replace_parts(model: Model, gone: Iterable[Opaque], new: Iterable[Opaque], *
         if part is after:
             parts.extend(new)
     return model.copy(opaque=tuple(parts))
-
-
-def declare_carriers(document: Document) -> Document:
-    """The document with the prefix of carriers declared if it is SDF."""
-    pair = (PREFIX, NAMESPACE)
-    if document.format is Format.URDF or pair in document.namespaces:
-        return document
-    return document.copy(namespaces=(*document.namespaces, pair))
 
 
 def location_of(part: Opaque, model: Model) -> Location:

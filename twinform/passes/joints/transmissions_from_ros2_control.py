@@ -8,6 +8,7 @@ from pydantic import Field
 
 from twinform.diagnostics import DiagnosticSink, Fate, rules
 from twinform.ir import Document, Element, Format, Model, Opaque, rewrite
+from twinform.passes.carriers.carriers import declare_carriers
 from twinform.passes.framework.pass_base import Pass
 from twinform.passes.joints.transmission import (
     CLASSES,
@@ -17,7 +18,6 @@ from twinform.passes.joints.transmission import (
     End,
     Transmission,
     as_parts,
-    declare_carriers,
     location_of,
     read_transmission,
     replace_parts,
