@@ -48,7 +48,8 @@ class Target(NamedTuple):
 
 
 def _models() -> Iterator[bytes]:
-    return _in(_CASES / "check", _CASES / "fix", _CASES / "convert", _ROOT / "examples")
+    yield from _in(_CASES / "check", _CASES / "fix", _CASES / "convert", _ROOT / "examples")
+    yield from (path.read_bytes() for path in sorted(_CASES.rglob("*.mjcf")))
 
 
 def _in(*folders: Path) -> Iterator[bytes]:
@@ -58,7 +59,7 @@ def _in(*folders: Path) -> Iterator[bytes]:
 
 def _elements() -> set[str]:
     names = set[str]()
-    pending: list[Fact] = [row for format in ("urdf", "sdf") for row in table(format).definitions.values()]
+    pending: list[Fact] = [row for format in ("urdf", "sdf", "mjcf") for row in table(format).definitions.values()]
     while pending:
         row = pending.pop()
         names.add(row.name.removeprefix("@"))
