@@ -12,12 +12,11 @@ from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import NOTHING_MATCHED, UNREAD_DOCUMENT
 from twinform.ir import Document, Element, Format, Link, Model, Opaque, rewrite
 from twinform.passes.appearance.set_surface import set_tags
-from twinform.passes.carriers.carriers import NAMESPACE, declare_carriers
+from twinform.passes.carriers.carriers import KEPT, declare_carriers
 from twinform.passes.framework.assets import AssetError
 from twinform.passes.framework.pass_base import AssetPass
 from twinform.schemas import XmlElement
 
-_KEPT = f"{{{NAMESPACE}}}mjcf"
 _LARGEST = 2**22
 Pair = tuple[str, str]
 
@@ -137,14 +136,14 @@ def _excluding(model: Model, disabled: Disabled, document: Document, sink: Diagn
         return model
     elements = (Element.unchecked(name="exclude", attributes=(("body1", a), ("body2", b))) for a, b in found)
     section = Element.unchecked(name="contact", children=tuple(elements))
-    kept = Element.unchecked(name=_KEPT, children=(section,))
+    kept = Element.unchecked(name=KEPT, children=(section,))
     return model.copy(opaque=(*model.opaque, Opaque.unchecked(element=kept)))
 
 
 def _excluded(model: Model) -> Iterator[Pair]:
     """Yield the pairs that a model keeps excluded already."""
     for part in model.opaque:
-        kept = part.element.children if part.element is not None and part.element.name == _KEPT else ()
+        kept = part.element.children if part.element is not None and part.element.name == KEPT else ()
         for section in kept:
             if section.name == "contact":
                 for each in section.children:

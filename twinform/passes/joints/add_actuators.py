@@ -11,13 +11,12 @@ from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import ASSUMED_GAIN
 from twinform.ir import Document, Element, Joint, Limit, Model, Opaque, rewrite
 from twinform.ir.defaults import UNLIMITED
-from twinform.passes.carriers.carriers import NAMESPACE, declare_carriers
+from twinform.passes.carriers.carriers import KEPT, declare_carriers
 from twinform.passes.framework.pass_base import EVERY, Pass, matches, with_such_a_name
 from twinform.passes.joints.joint_commands import Interface, JointCommand, joint_commands
 from twinform.schemas import format_value
 
 _DRIVEN = frozenset({"revolute", "continuous", "prismatic"})
-_KEPT = f"{{{NAMESPACE}}}mjcf"
 _TAGS: dict[Interface, str] = {"position": "position", "velocity": "velocity", "effort": "motor"}
 _STIFF: dict[str, float] = {"prismatic": 1000.0}
 """In N/m; and of joints that turn in N m/rad, where no effort is written."""
@@ -180,7 +179,7 @@ def _finite(value: float | None) -> float | None:
 def _actuated(model: Model) -> Iterator[str | None]:
     """Yield the joints that have an actuator in what a model keeps of MJCF."""
     for part in model.opaque:
-        if part.element is not None and part.element.name == _KEPT:
+        if part.element is not None and part.element.name == KEPT:
             for section in part.element.children:
                 if section.name == "actuator":
                     yield from (each.get("joint") for each in section.children)
@@ -189,5 +188,5 @@ def _actuated(model: Model) -> Iterator[str | None]:
 def _with_actuators(model: Model, actuators: Iterable[Element]) -> Model:
     option = Element.unchecked(name="option", attributes=(("integrator", "implicitfast"),))
     section = Element.unchecked(name="actuator", children=tuple(actuators))
-    kept = Element.unchecked(name=_KEPT, children=(option, section))
+    kept = Element.unchecked(name=KEPT, children=(option, section))
     return model.copy(opaque=(*model.opaque, Opaque.unchecked(element=kept)))

@@ -11,7 +11,7 @@ from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import FOREIGN_HARDWARE_INTERFACE
 from twinform.ir import Document, Element, Format, Joint, Model, Opaque, rewrite
 from twinform.passes.carriers.annotations import find_annotation
-from twinform.passes.carriers.carriers import NAMESPACE, declare_carriers
+from twinform.passes.carriers.carriers import KEPT, declare_carriers
 from twinform.passes.framework.pass_base import Pass
 from twinform.passes.joints.joint_commands import Interface
 from twinform.passes.joints.ros2_control import (
@@ -24,7 +24,6 @@ from twinform.passes.joints.ros2_control import (
 from twinform.passes.joints.transmission import as_parts
 from twinform.schemas import format_value
 
-_KEPT = f"{{{NAMESPACE}}}mjcf"
 _NAME_IN_URDF = "name"
 _BY_TAG: dict[str, Interface] = {
     "position": "position", "intvelocity": "velocity", "velocity": "velocity", "motor": "effort",
@@ -96,7 +95,7 @@ class Ros2ControlFromActuators(Pass):
 
 def _actuators(model: Model) -> Iterator[Element]:
     """Yield the actuators that a model keeps of MJCF."""
-    kept: list[Opaque] = [part for part in model.opaque if part.element is not None and part.element.name == _KEPT]
+    kept: list[Opaque] = [part for part in model.opaque if part.element is not None and part.element.name == KEPT]
     for part in kept:
         for section in part.element.children if part.element else ():
             if section.name == "actuator":

@@ -12,7 +12,6 @@ from twinform.ir import Collision, Element, Link, Model, Node, Opaque, Surface, 
 from twinform.ir.kinematic_tree import KinematicTree
 from twinform.ir.scopes import scoped_models
 from twinform.passes.carriers.annotations import annotation, find_annotation, without_annotation
-from twinform.passes.carriers.carriers import NAMESPACE
 from twinform.passes.legalise.to_mjcf.contact_plan import ContactPlan, coefficient, friction_priorities
 from twinform.passes.legalise.to_mjcf.kept_mjcf import KEPT
 from twinform.schemas import XmlElement
@@ -105,7 +104,7 @@ def _with_differences(collision: Collision, note: Element, expected: Touch) -> C
         bits = [(name, written[name]) for name in ("contype", "conaffinity")]
         differing = [*bits, *(pair for pair in differing if pair[0] == "priority")]
     kept = Element.unchecked(name="geom", attributes=tuple(differing))
-    part = Opaque.unchecked(element=Element.unchecked(name=f"{{{NAMESPACE}}}mjcf", children=(kept,)))
+    part = Opaque.unchecked(element=Element.unchecked(name=KEPT, children=(kept,)))
     return collision.copy(opaque=(*collision.opaque, part))
 
 
