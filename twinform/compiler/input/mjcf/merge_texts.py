@@ -219,7 +219,8 @@ class _Merged:
     def _let_go(self, model: Model, made: frozenset[str], *, is_static: bool = False) -> Model:
         """The model without joints that only say that it is fixed to the world, where something else says so."""
         carried = {each.name for each in self.joints if not is_synthesized(each)}
-        is_robot = came_from(model, Format.URDF)
+        # The only root of a URDF goes without saying; of several each is held or floats.
+        is_robot = came_from(model, Format.URDF) and len(_roots(model)) <= 1
 
         def is_needless(joint: Joint) -> bool:
             if joint.type != "fixed" or joint.parent != WORLD:
@@ -309,6 +310,12 @@ class _Merged:
 
     def _stale(self, message: str, node: Node) -> None:
         report_stale(self.sink, message, node.source)
+
+
+def _roots(model: Model) -> set[str]:
+    """The links that no other link holds."""
+    held = {each.child for each in model.joints if each.parent != WORLD}
+    return {each.name for each in model.links if each.name not in held}
 
 
 def _without_holds(model: Model) -> Model:
