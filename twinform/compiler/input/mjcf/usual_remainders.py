@@ -3,7 +3,7 @@
 from collections.abc import Collection, Mapping
 from typing import TypeVar
 
-from twinform.ir import Element, Model, Node, Opaque, replace_fields, rewrite
+from twinform.ir import Collision, Element, Model, Node, Opaque, Visual, replace_fields, rewrite
 from twinform.passes.carriers.carriers import bits_of_ours
 from twinform.passes.legalise.to_mjcf.kept_mjcf import KEPT
 
@@ -29,9 +29,10 @@ def without_usual(node: AnyNode) -> AnyNode:
 
 
 def without_assets(model: Model, names: Collection[tuple[str, str]]) -> Model:
-    """The model without remainders of assets that are written again for what comes back."""
-    if not names:
-        return model
+    """The model without remainders of assets that are written again for what comes back.
+
+    A shape does not keep the name of a material of which nothing is left: what it looks like says all of it.
+    """
 
     def left(part: Opaque) -> Opaque | None:
         if part.element is None or not _is_kept(part):
@@ -44,7 +45,27 @@ def without_assets(model: Model, names: Collection[tuple[str, str]]) -> Model:
         )
         return _left_of(part.copy(element=part.element.copy(children=sections)))
 
-    return replace_fields(model, opaque=tuple(made for part in model.opaque if (made := left(part)) is not None))
+    opaque = tuple(made for part in model.opaque if (made := left(part)) is not None) if names else model.opaque
+    kept = [each for part in opaque if part.element and _is_kept(part) for each in part.element.children]
+    known = {each.get("name") for section in kept if section.name == "asset" for each in section.children}
+
+    def without_name(node: Node) -> Node:
+        if not isinstance(node, Visual | Collision):
+            return node
+        made = [part if part.element is None else _without_material(part, known) for part in node.opaque]
+        return replace_fields(node, opaque=tuple(part for part in made if part is not None))
+
+    return rewrite(replace_fields(model, opaque=opaque), Node, without_name, having=bits_of_ours("mjcf"))
+
+
+def _without_material(part: Opaque, known: Collection[str | None]) -> Opaque | None:
+    if part.element is None or not _is_kept(part):
+        return part
+    geoms = tuple(
+        each.copy(attributes=tuple(pair for pair in each.attributes if pair[0] != "material" or pair[1] in known))
+        for each in part.element.children
+    )
+    return _left_of(part.copy(element=part.element.copy(children=geoms)))
 
 
 def _name_of(element: Element) -> tuple[str, str]:
@@ -70,7 +91,8 @@ def _left_of(part: Opaque) -> Opaque | None:
 
 
 def _rest_of(element: Element) -> Element | None:
-    usual = _USUAL.get(element.name, {})
+    is_whole = element.name == "geom" and element.get("name") is not None  # SDF has no such shape
+    usual = _USUAL.get("" if is_whole else element.name, {})
     attributes = tuple(pair for pair in element.attributes if not _is_usual(pair[1], usual.get(pair[0], frozenset())))
     children = tuple(left for each in element.children if (left := _rest_of(each)) is not None)
     return element.copy(attributes=attributes, children=children) if attributes or children else None
