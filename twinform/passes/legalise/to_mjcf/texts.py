@@ -5,10 +5,13 @@ Each link, joint, frame, model or world has one text, which holds the partial no
 of the source, and what stands beside the model or world that is written.
 """
 
+from functools import partial
+
 from twinform.diagnostics import rules
-from twinform.ir import Frame, Joint, Link, Model, Node, World
+from twinform.ir import Frame, Joint, Link, Model, Node, Opaque, World
 from twinform.ir.frames import MODEL
-from twinform.passes.carriers.carriers import NAMESPACE, without_ours
+from twinform.ir.rewrite import census_of
+from twinform.passes.carriers.carriers import NAMESPACE, bits_of_ours, is_carrier, is_ours, without_parts
 from twinform.passes.carriers.mjcf_texts import DOCUMENT, bare_xml, text_element, text_name, xml_data
 from twinform.passes.carriers.partial_nodes import REST, is_bare, remainder
 from twinform.passes.legalise.to_mjcf.inertials import weight_of
@@ -83,7 +86,7 @@ class _Texts:
         for kind, parts in (("model", (model,)), ("link", links), ("joint", moving)):
             for each in parts:
                 self.file.part = each
-                left = remainder(without_ours(each), self.said, lambda _: ())
+                left = remainder(without_parts(each, _is_of_mjcf), self.said, lambda _: ())
                 if left is not None and not is_bare(left):
                     name = next(iter(self.file.other_names(each)), each.name)
                     self._add_text(kind, name, left.copy(name=name), each)
@@ -91,7 +94,7 @@ class _Texts:
     def _add(self, kind: str, name: str, node: Node) -> None:
         """Add the text of a node, unless MJCF says all of it, and enter what it holds into the ledger."""
         self.file.part = node
-        left = remainder(node, self.said, self.notes)
+        left = remainder(_without_kept(node), self.said, self.notes)
         if left is None and isinstance(node, World):  # what is a model has no world around it
             left = World.unchecked(name=node.name)
         if left is not None:
@@ -147,6 +150,18 @@ def _as_mjcf_has_it(joint: Joint) -> Joint:
 def _is_mocap(link: Link) -> bool:
     """Whether a link keeps that only a program moves it."""
     return any(each.name == "body" and each.get("mocap") == "true" for each in kept_elements(link))
+
+
+def _is_of_mjcf(part: Opaque) -> bool:
+    """Whether an untyped part says how a file of MJCF is read; what URDF has in a carrier does not."""
+    return is_ours(part) and not is_carrier(part, "urdf")
+
+
+def _without_kept(node: Node) -> Node:
+    """The node without what only MJCF has: it stands in the elements of MJCF."""
+    if not census_of(node) & bits_of_ours("mjcf"):
+        return node
+    return without_parts(node, partial(is_carrier, dialect="mjcf"))
 
 
 def _is_rest(xml: XmlElement) -> bool:
