@@ -67,7 +67,8 @@ class ContactPlan:
                 self._groups[name.partition(SCOPE)[0] if isinstance(holder, World) else ""].append(name)
         collisions = [each for link in tree.links.values() for each in link.collisions]
         self._has_masks = any(mask_of(each, name) is not None for each in collisions for name in _MASKS)
-        self._has_bits_of_geoms = self._has_masks or any(kept_bits(each) for each in collisions)
+        # Where an edit gave a geom bits of its own, the others keep what they have of their models.
+        self._has_bits_of_geoms = self._has_masks or (is_of_mjcf and any(kept_bits(each) for each in collisions))
 
     def bits(self, link: str, collision: Collision) -> Bits:
         """The bits of a geom; those of its collision where a collision has any, as SDF defines them."""

@@ -59,6 +59,7 @@ def geom_elements(context: MjcfContext, body: Body) -> list[Element]:
     """
     found: list[Element] = []
     twins = {each.name: each for each in body.link.visuals if find_annotation(each, SAME_GEOM) is not None}
+    hides = any(_kept_group(each) in {"1", "2"} for each in body.link.visuals)
     done: set[int] = set()
     for collision in body.link.collisions:
         if (shape := _shape_of(context, body, collision)) is not None:
@@ -68,26 +69,46 @@ def geom_elements(context: MjcfContext, body: Body) -> list[Element]:
                 done.add(id(twin))
                 more = [*more, *look_of(context, body, twin, collision)]
             else:
-                more = [*more, *_group(context, collision, _TOUCHED)]
+                more = [*more, *_group(context, collision, _TOUCHED, hides=hides)]
             found.append(_geom(context, body, collision, shape, more))
             if twin is not None and id(twin) in done and id(collision) in context.written_geoms:
                 context.written_geoms[id(twin)] = context.written_geoms[id(collision)]
     for visual in body.link.visuals:
         if id(visual) not in done and (shape := _shape_of(context, body, visual)) is not None:
             # Beside visuals in their own group, one that touches too would count as hidden.
-            group = [] if done else _group(context, visual, _SEEN)
+            group = [] if done else _group(context, visual, _SEEN, hides=hides)
             weightless = () if context.is_of_mjcf else _WEIGHTLESS
             more = [*_UNTOUCHED, *group, *weightless, *look_of(context, body, visual)]
             found.append(_geom(context, body, visual, shape, more))
     return found
 
 
-def _group(context: MjcfContext, part: Visual | Collision, group: int) -> list[tuple[str, Value]]:
-    """The group of a geom: collisions are in one of their own where there are visuals; one of MJCF stays in its own."""
-    kept = any(each.name == "geom" and each.get("group") for each in kept_elements(part))
-    if kept or context.is_of_mjcf or (group == _TOUCHED and not context.has_visuals):
+def _group(context: MjcfContext, part: Visual | Collision, group: int, *, hides: bool) -> list[tuple[str, Value]]:
+    """The group of a geom: collisions are in one of their own where there are visuals; one of MJCF stays in its own.
+
+    In a file of MJCF a collision without a visual is shown by nothing: it is wholly transparent, or `hides` is whether
+    others in its body have it hidden. Otherwise it was added to the robot while it was in another language.
+    """
+    is_touched = group == _TOUCHED
+    if _kept_group(part) or (is_touched and not context.has_visuals):
+        return []
+    if context.is_of_mjcf and (not is_touched or hides or _is_transparent(context, part)):
         return []
     return [("group", str(group))]
+
+
+def _kept_group(part: Visual | Collision) -> str:
+    return _kept(part, "group")
+
+
+def _is_transparent(context: MjcfContext, part: Visual | Collision) -> bool:
+    rgba = _kept(part, "rgba") or context.colors.get(_kept(part, "material"), "")
+    return [float(each) for each in rgba.split()[3:]] == [0.0]
+
+
+def _kept(part: Visual | Collision, name: str) -> str:
+    """The value of an attribute of the geom that a visual or collision was read from, where it keeps that."""
+    return next((value for each in kept_elements(part) if each.name == "geom" and (value := each.get(name))), "")
 
 
 def _geom(context: MjcfContext, body: Body, part: AnyPart, shape: Solid, more: Attributes) -> Element:
@@ -97,7 +118,15 @@ def _geom(context: MjcfContext, body: Body, part: AnyPart, shape: Solid, more: A
         context.note_made_name("geom", part, name)
     at = context.resolve(part.pose, body).compose(shape.at)
     attributes = [("name", name), *shape.attributes, *placement(at), *more]
-    return with_kept(make_element("geom", attributes, (), part.source), part)
+    return _with_known_material(context, with_kept(make_element("geom", attributes, (), part.source), part))
+
+
+def _with_known_material(context: MjcfContext, geom: Element) -> Element:
+    """The geom without the name of a material that has gone with a visual, or with another model."""
+    name = geom.get("material")
+    if name is None or name in context.materials or name in context.names.get("material", ()):
+        return geom
+    return geom.copy(attributes=tuple(pair for pair in geom.attributes if pair[0] != "material"))
 
 
 def _shape_of(context: MjcfContext, body: Body, part: AnyPart) -> Solid | None:
@@ -159,11 +188,6 @@ def _size(shape: Box | Sphere | Ellipsoid | Cylinder | Capsule) -> tuple[float, 
             return (found[0], found[1] / 2)
         case _:
             return found
-
-
-def _kept(part: Visual | Collision, attribute: str) -> str:
-    """An attribute of the geom that a visual or collision was read from, where it keeps that; otherwise nothing."""
-    return next((value for each in kept_elements(part) if each.name == "geom" and (value := each.get(attribute))), "")
 
 
 def _plane(shape: Plane, kept: Sequence[float]) -> Solid:

@@ -55,6 +55,8 @@ def with_kept_joint(element: Element, joint: Joint) -> Element:
         own = tuple(pair for pair in element.attributes if pair[0] not in _FORCE)
         element = element.copy(attributes=own)
     written = tuple((name, _with_rest(name, value, kept)) for name, value in element.attributes)
+    if (force := kept.get(_FORCE[1])) and _is_greatest(force, element.get(_FORCE[1])):
+        written = tuple((name, force if name == _FORCE[1] else value) for name, value in written)
     made = with_kept(element.copy(attributes=written), joint)
     if made.get(_FORCE[1]) is None:  # where nothing is limited, it need not be said
         made = made.copy(attributes=tuple(pair for pair in made.attributes if pair != (_FORCE[0], "false")))
@@ -68,6 +70,11 @@ def with_kept_equality(element: Element, joint: Joint) -> Element:
             if section.name == "equality" and kept.name == element.name:
                 element = merged(element, kept.copy(children=()))
     return element
+
+
+def _is_greatest(force: str, effort: str | None) -> bool:
+    """Whether the effort, written as a range, is the greater end of the range of forces that was read."""
+    return effort is not None and max(abs(float(each)) for each in force.split()) == float(effort.split()[-1])
 
 
 def _with_rest(name: str, value: str, kept: Element) -> str:

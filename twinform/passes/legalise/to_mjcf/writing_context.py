@@ -146,6 +146,26 @@ class MjcfContext:
         return any(each.name == ROOT for holder in holders for each in kept_elements(holder))
 
     @cached_property
+    def colors(self) -> Mapping[str, str]:
+        """The colors of the materials that were read of MJCF and are kept, by their names."""
+        holders = (self.holder, *(each for _, each in self.models))
+        sections = (each for holder in holders for each in kept_elements(holder) if each.name == "asset")
+        return {each.get("name") or "": each.get("rgba") or "" for section in sections for each in section.children}
+
+    @cached_property
+    def materials(self) -> frozenset[str]:
+        """The names of the materials that are kept, or that visuals were read with, whose looks make them again."""
+        geoms = (each for link in self.tree.links.values() for shape in link.visuals for each in kept_elements(shape))
+        twins = (
+            each
+            for link in self.tree.links.values()
+            for shape in link.collisions
+            if any(visual.name == shape.name for visual in link.visuals)
+            for each in kept_elements(shape)
+        )
+        return frozenset({*self.colors, *(each.get("material") or "" for each in (*geoms, *twins))})
+
+    @cached_property
     def contacts(self) -> ContactPlan:
         """Which links touch.
 
