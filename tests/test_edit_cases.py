@@ -1,7 +1,7 @@
 """Edits that once did not win: every file of `tests/cases/edits` is converted, edited as its comments say, and judged.
 
 A comment `edit:` has an edit of the converted file, `refused:` one that has to be an error, and `pass:` a pipeline that
-runs on it; each is tried on its own.
+runs on it; `mjcf:` is an edit of the file of MJCF that it becomes. Each is tried on its own.
 """
 
 import re
@@ -14,13 +14,14 @@ import pytest
 import twinform
 from testbed.corpus.files import ROOT
 from testbed.edits import Edit
+from testbed.edits.edited_file import Language
 from testbed.edits.judging import Outcome, judge, judge_edits, unedited
 from testbed.edits.plainly import Plainly
 
 pytestmark = pytest.mark.slow
 
 CASES = Path(__file__).parent / "cases" / "edits"
-_WISH = re.compile(r"<!-- (edit|refused|pass): (.*?) -->")
+_WISH = re.compile(r"<!-- (edit|refused|pass|mjcf): (.*?) -->")
 
 
 def _cases() -> Iterator[object]:
@@ -32,9 +33,10 @@ def _cases() -> Iterator[object]:
 @pytest.mark.parametrize(("path", "kind", "text"), list(_cases()))
 def test_an_edit_wins(path: Path, kind: str, text: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(ROOT)
-    to: Literal["sdf", "urdf"] = "sdf" if path.suffix == ".urdf" else "urdf"
+    source: Literal["sdf", "urdf"] = "urdf" if path.suffix == ".urdf" else "sdf"
+    to: Language = "mjcf" if kind == "mjcf" else "sdf" if source == "urdf" else "urdf"
     made = twinform.convert(path, to=to).text.encode()
-    before = unedited(made)
+    before = unedited(made, source)
     if kind == "pass":
         passed = twinform.convert(made, to=to, passes=text).text.encode()
         verdict = judge(before, passed, plainly=Plainly.NONE if text.startswith("attach") else Plainly.SKELETON)

@@ -4,11 +4,9 @@ import hashlib
 import json
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
-from enum import StrEnum
 from functools import partial
 from pathlib import Path
 from random import Random
-from typing import Literal
 
 import twinform
 from testbed import output_files
@@ -17,10 +15,12 @@ from testbed.corpus.files import CORPUS, CorpusFile, Kind, models
 from testbed.corpus.there_and_back import robots
 from testbed.edits import Edit, apply_all, draw_edits
 from testbed.edits import passes as edit_passes
+from testbed.edits.edited_file import EditedFile, Language
 from testbed.edits.judging import Converted, Outcome, Verdict, judge, judge_edits, unedited
 from testbed.edits.mistakes import KIND as MISTAKE
 from testbed.edits.plainly import Plainly
 from testbed.edits.trips import TRIPS, Draw, trips
+from testbed.mjcf_models import PACKAGES
 from testbed.output_files import kept
 
 OUT = output_files.OUT / "edits"
@@ -39,30 +39,29 @@ _ONE_IN = 20
 """So many of the edits that won are shown to Drake."""
 
 
-class Direction(StrEnum):
-    """The directions that are tried."""
-
-    TO_SDF = "URDF -> SDF, edited -> URDF"
-    TO_URDF = "SDF -> URDF, edited -> SDF"
-
-
 @dataclass(frozen=True, slots=True)
 class Job:
-    """A model: a file of the corpus, or of `out/edits`; `edits` of it are tried, and two of the passes."""
+    """A model: a file of the corpus or of a package, or of `out/edits`; `edits` of it in another language are tried."""
 
     name: str
     path: Path
     paths: tuple[Path, ...]
-    is_urdf: bool
+    language: Language
+    edited: Language
     seed: int
     edits: int
+
+    @property
+    def is_urdf(self) -> bool:
+        """Whether the file is URDF."""
+        return self.language == "urdf"
 
 
 @dataclass(frozen=True, slots=True)
 class Tried:
     """One edit of one converted model, or one pass; `replay` repeats it, `folder` has the files of a fault."""
 
-    direction: Direction
+    direction: str
     kind: str
     verdict: Verdict
     replay: str
@@ -94,14 +93,15 @@ class Robot:
         return " ".join(filter(None, (self.job.name, self.robot, self.version)))
 
     @property
-    def formats(self) -> tuple[Literal["sdf", "urdf"], Literal["sdf", "urdf"]]:
+    def formats(self) -> tuple[Language, Language]:
         """The format that is edited, and that of the source and the result."""
-        return ("sdf", "urdf") if self.job.is_urdf else ("urdf", "sdf")
+        return self.job.edited, self.job.language
 
     def tried(self, kind: str, verdict: Verdict, what: str) -> Tried:
         """The verdict on an edit or pass."""
-        replay = json.dumps([self.job.name, self.robot, self.version, what], ensure_ascii=False)
-        return Tried(Direction.TO_SDF if self.formats[0] == "sdf" else Direction.TO_URDF, kind, verdict, replay)
+        replay = json.dumps([self.job.name, self.job.edited, self.robot, self.version, what], ensure_ascii=False)
+        edited, source = (each.upper() for each in self.formats)
+        return Tried(f"{source} -> {edited}, edited -> {source}", kind, verdict, replay)
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,9 +111,10 @@ class Model(Robot):
     before: Converted
 
     @property
-    def formats(self) -> tuple[Literal["sdf", "urdf"], Literal["sdf", "urdf"]]:
+    def formats(self) -> tuple[Language, Language]:
         """The same, which turn around with each trip."""
-        return ("sdf", "urdf") if self.before.to == "urdf" else ("urdf", "sdf")
+        own, other = self.job.edited, self.job.language
+        return (own, other) if self.before.to == other else (other, own)
 
 
 def corpus_jobs(seed: int, edits: dict[bool, int]) -> Iterator[Job]:
@@ -123,12 +124,13 @@ def corpus_jobs(seed: int, edits: dict[bool, int]) -> Iterator[Job]:
 
 def corpus_job(file: CorpusFile, seed: int, edits: int) -> Job:
     """The job of one file."""
-    return Job(file.name, file.path, file.paths, file.kind is Kind.URDF, seed, edits)
+    is_urdf = file.kind is Kind.URDF
+    return Job(file.name, file.path, file.paths, *(("urdf", "sdf") if is_urdf else ("sdf", "urdf")), seed, edits)
 
 
 def work(job: Job) -> list[Done]:
     """Convert the robots of a file, and try edits and passes on each."""
-    random = Random(f"{job.seed} {job.name}")
+    random = Random(f"{job.seed} {job.name}" + (f" {job.edited}" if "mjcf" in {job.edited, job.language} else ""))
     try:
         checked = twinform.check(job.path, paths=job.paths)
     except Exception as error:  # noqa: BLE001 - that is the business of the report on the corpus
@@ -140,14 +142,15 @@ def work(job: Job) -> list[Done]:
 
 
 def _worked(job: Job, robot: str | None, edits: int, random: Random) -> Done:
-    version = random.choice(_VERSIONS) if job.is_urdf else None
+    version = random.choice(_VERSIONS) if (job.language, job.edited) == ("urdf", "sdf") else None
     subject = Robot(job, robot, version)
     model = converted(subject)
     if isinstance(model, str):
         lost = subject.tried(NO_ROUND_TRIP, Verdict(Outcome.SILENT, (model,)), "[]")
         return Done(subject.name, model, tried=(lost,) if model.startswith(NO_ROUND_TRIP) else ())
     count = edits if len(model.before.text) < _USUAL_BYTES else max(1, edits // 4)
-    tried = [*_edits(model, count, random), *_passes(model, random), *_trips(model, random)]
+    passes = () if job.edited == "mjcf" else _passes(model, random)  # which no pass is made for
+    tried = [*_edits(model, count, random), *passes, *_trips(model, random)]
     differing = tuple(sorted(": ".join(filter(None, key)) for key in model.before.differing))
     return Done(model.name, "", differing, tuple(tried))
 
@@ -165,7 +168,7 @@ def converted(one: Robot) -> Model | str:
     if len(text) > MOST_BYTES:
         return f"too large: {len(text) // 1000} kB"
     try:
-        return Model(job, one.robot, one.version, unedited(text))
+        return Model(job, one.robot, one.version, unedited(text, job.language))
     except Exception as error:  # noqa: BLE001 - whatever it is, what was converted must convert back
         rules = rules_of(error.diagnostics) if isinstance(error, twinform.CompileError) else (str(error),)
         return f"{NO_ROUND_TRIP}: {type(error).__name__}: {', '.join(rules)}"
@@ -270,16 +273,16 @@ def written(model: Model, text: bytes, tried: Tried, folder: Path) -> Path:
     return folder
 
 
-def job_named(name: str) -> Job:
-    """The job of a file of the corpus or of `out/edits`, by its name in a report.
+def job_named(name: str, edited: Language) -> Job:
+    """The job of a file of the corpus, of a package or of `out/edits`, by its name in a report.
 
     Raises:
         LookupError: there is none.
     """
     for file in models():
         if file.name == name:
-            return corpus_job(file, 0, 0)
-    path = OUT / name if (OUT / name).is_file() else Path(name)
-    if not path.is_file():
-        raise LookupError(f"no file {name} in {CORPUS} or {OUT}")
-    return Job(name, path, (), path.suffix == ".urdf", 0, 0)
+            return replace(corpus_job(file, 0, 0), edited=edited)
+    path = next((each / name for each in (OUT, PACKAGES, Path()) if (each / name).is_file()), None)
+    if path is None:
+        raise LookupError(f"no file {name} in {CORPUS}, {PACKAGES} or {OUT}")
+    return Job(name, path, (), EditedFile(path.read_bytes()).language, edited, 0, 0)

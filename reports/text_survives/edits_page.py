@@ -10,7 +10,7 @@ from lxml import etree
 from reports.harness.known import Known, contains
 from reports.harness.sample import Sample
 from reports.same_robot.drake_verdicts import DRAKE
-from reports.text_survives.edit_jobs import MOST_BYTES, Direction, Done, Tried
+from reports.text_survives.edit_jobs import MOST_BYTES, Done, Tried
 from testbed.edits.judging import Outcome
 from testbed.markdown import listing, subsection, table
 from twinform.compiler.workers import Failure
@@ -148,12 +148,13 @@ def sections(done: list[Done], tried: list[Tried], failures: list[str], drake: D
 def _table(tried: Iterable[Tried]) -> str:
     every = list(tried)
     kinds = sorted({one.kind for one in every}, key=lambda kind: (kind.startswith("pass: "), kind))
+    directions = sorted({one.direction for one in every}, reverse=True)
     rows = [
         _row(direction, kind, [one for one in every if one.direction == direction and one.kind == kind])
-        for direction in Direction
+        for direction in directions
         for kind in kinds
     ]
-    totals = [_row(direction, "all", [one for one in every if one.direction == direction]) for direction in Direction]
+    totals = [_row(direction, "all", [one for one in every if one.direction == direction]) for direction in directions]
     head = ["direction", "edit", "tried", "same", "same, warned", "refused", "wrong", "silent"]
     return table(head, [row for row in (*rows, *totals) if row[2]])
 

@@ -8,13 +8,13 @@ from reports.text_survives.edit_jobs import OUT, Robot, again, converted, job_na
 
 def main(line: str) -> int:
     """Try it, and leave its files; 1 where the edit does not win."""
-    name, robot, version, what = json.loads(line)
-    model = converted(Robot(job_named(name), robot, version))
+    name, edited, robot, version, what = json.loads(line)
+    model = converted(Robot(job_named(name, edited), robot, version))
     if isinstance(model, str):
         print(model, file=sys.stderr)
         return 1
-    edited, tried = again(model, what)
-    folder = written(model, edited, tried, OUT / "replay")
+    text, tried = again(model, what)
+    folder = written(model, text, tried, OUT / "replay")
     print(tried.verdict.outcome, *tried.verdict.differences, *tried.verdict.rules, folder, sep="\n")
     return 1 if tried.verdict.is_fault else 0
 

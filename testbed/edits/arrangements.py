@@ -10,6 +10,7 @@ from testbed.edits.scene import Scene, name_of
 from twinform.schemas import XmlElement
 
 _COPIED = ("visual", "collision", "sensor", "plugin", "frame", "material", "gazebo", "light", "transmission")
+_SHAPES = ("visual", "collision", "sensor", "geom", "site")
 
 
 def reorder(scene: Scene, random: Random) -> Edit | None:
@@ -25,7 +26,7 @@ def reorder(scene: Scene, random: Random) -> Edit | None:
 
 def move_shape(scene: Scene, random: Random) -> Edit | None:
     """A visual, collision or sensor in another link."""
-    moved = [each for each in scene.parts("visual", "collision", "sensor") if _is_in_link(each)]
+    moved = [each for each in scene.parts(*_SHAPES) if _is_in_link(each)]
     if not moved or len(scene.links) < 2:
         return None
     chosen = random.choice(moved)
@@ -36,15 +37,16 @@ def move_shape(scene: Scene, random: Random) -> Edit | None:
 
 def duplicate(scene: Scene, random: Random) -> Edit | None:
     """A copy of a part beside it, with a name of its own."""
-    found = scene.parts(*_COPIED)
+    found = scene.parts(*(("geom", "site", "body", "camera") if scene.is_mjcf else _COPIED))
     if not found:
         return None
     chosen = random.choice(found)
     parent = chosen.getparent()
     assert parent is not None
     made = copy.deepcopy(chosen)
-    if name_of(made):
-        made.set("name", scene.fresh(f"copied_{made.tag}"))
+    for number, each in enumerate(made.iter(etree.Element) if scene.is_mjcf else [made]):
+        if name_of(each):
+            each.set("name", scene.fresh(f"copied_{each.tag}") + ("" if each is made else f"_{number}"))
     made.tail = None
     xml = etree.tostring(made, encoding="unicode")
     return Edit("duplicate", (Insert(path_of(parent), parent.index(chosen) + 1, xml),))
@@ -85,4 +87,4 @@ def _is_order_free(element: XmlElement) -> bool:
 
 def _is_in_link(element: XmlElement) -> bool:
     parent = element.getparent()
-    return parent is not None and parent.tag == "link"
+    return parent is not None and parent.tag in {"link", "body"}

@@ -5,14 +5,15 @@ from random import Random
 from lxml import etree
 
 from testbed.edits.edit import Delete, Edit, SetAttribute, path_of
-from testbed.edits.scene import MORE_PARTS, PARTS, Scene, ends, name_of
+from testbed.edits.scene import MORE_PARTS, PARTS, PARTS_OF_MJCF, Scene, ends, name_of
 from twinform.passes.carriers.carriers import NAMESPACE
 from twinform.schemas import XmlElement
 
 
 def delete_part(scene: Scene, random: Random) -> Edit | None:
     """A visual, sensor, `<gazebo>`, plugin, frame or the like."""
-    tags = sorted({str(each.tag) for each in scene.parts(*PARTS, *MORE_PARTS)})
+    wanted = PARTS_OF_MJCF if scene.is_mjcf else (*PARTS, *MORE_PARTS)
+    tags = sorted({str(each.tag) for each in scene.parts(*wanted)})
     if not tags:
         return None
     return _deleted("delete a part", scene.parts(random.choice(tags)), random)
@@ -82,7 +83,7 @@ def _our_attributes(element: XmlElement) -> list[str]:
 
 
 def _carriers(scene: Scene) -> list[XmlElement]:
-    return [each for each in scene.carried if str(each.tag).startswith(f"{{{NAMESPACE}}}")]
+    return [each for each in scene.carried if scene.is_mjcf or str(each.tag).startswith(f"{{{NAMESPACE}}}")]
 
 
 def _deleted(kind: str, among: list[XmlElement], random: Random) -> Edit | None:

@@ -5,7 +5,7 @@ from random import Random
 
 from lxml import etree
 
-from testbed.edits import additions, arrangements, deletions, mistakes, names, values
+from testbed.edits import additions, arrangements, deletions, mistakes, mjcf_edits, names, values
 from testbed.edits.edit import Edit, EditError
 from testbed.edits.scene import Scene
 
@@ -44,11 +44,34 @@ KINDS: tuple[tuple[int, Draw], ...] = (
     (1, arrangements.say_nothing),
     (1, mistakes.make_a_mistake),
 )
-"""How often each kind is drawn, and what draws it."""
+"""How often each kind is drawn in URDF and SDF, and what draws it."""
+KINDS_OF_MJCF: tuple[tuple[int, Draw], ...] = (
+    (10, values.change_number),
+    (2, mjcf_edits.change_type),
+    (5, mjcf_edits.rename_part),
+    (2, names.point_elsewhere),
+    (2, mjcf_edits.hang_elsewhere),
+    (3, deletions.delete_part),
+    (2, deletions.delete_value),
+    (3, deletions.delete_attribute),
+    (1, mjcf_edits.delete_limit),
+    (2, mjcf_edits.delete_link),
+    (2, deletions.delete_carrier),
+    (1, deletions.delete_carriers),
+    (2, values.change_carried_number),
+    (3, mjcf_edits.add_part),
+    (3, mjcf_edits.add_body),
+    (3, mjcf_edits.add_to_joint),
+    (2, mjcf_edits.add_relation),
+    (2, arrangements.reorder),
+    (2, arrangements.move_shape),
+    (2, arrangements.duplicate),
+    (1, arrangements.say_nothing),
+    (1, mistakes.make_a_mistake),
+)
+"""The kinds of MJCF: those of the others that fit it, and its own."""
 MOST = 3
 _TRIES = 20
-_WEIGHTS = [weight for weight, _ in KINDS]
-_DRAWS = [draw for _, draw in KINDS]
 
 
 def draw_edits(text: bytes, random: Random, *, most: int = MOST) -> tuple[tuple[Edit, ...], bytes]:
@@ -66,8 +89,9 @@ def draw_edits(text: bytes, random: Random, *, most: int = MOST) -> tuple[tuple[
 def draw_edit(text: bytes, random: Random) -> tuple[Edit, bytes]:
     """An edit of a file, and its text after it."""
     scene = Scene(etree.fromstring(text))
+    weights, draws = zip(*(KINDS_OF_MJCF if scene.is_mjcf else KINDS), strict=True)
     for _ in range(_TRIES):
-        (draw,) = random.choices(_DRAWS, _WEIGHTS)
+        (draw,) = random.choices(draws, weights)
         edit = draw(scene, random)
         if edit is None:
             continue

@@ -5,6 +5,7 @@ kept in a file and made again: `Edit.from_text(str(edit)) == edit`.
 """
 
 import json
+import re
 from collections.abc import Iterable
 from dataclasses import astuple, dataclass
 from typing import Any, cast
@@ -17,6 +18,7 @@ from twinform.schemas import XmlElement
 NAMING = frozenset(
     {"name", "link", "joint", "reference", "parent", "child", "relative_to", "attached_to", "canonical_link"}
     | {"expressed_in", "placement_frame", "frame"}
+    | {"body", "body1", "body2", "joint1", "joint2", "site", "geom", "geom1", "geom2", "objname", "material", "target"}
 )
 """Attributes whose value is the name of a part of a robot."""
 _NOT_NAMING = frozenset({"type", "filename", "uri", "format"})
@@ -108,8 +110,17 @@ class Rename:
     def apply(self, found: XmlElement) -> None:
         """Change all elements below this one."""
         for element in found.iter(etree.Element):
-            if self.carriers or not is_ours(element):
+            if is_text_of_ours(element):
+                self._rename_in_text(element)
+            elif self.carriers or not is_ours(element):
                 self._rename(element)
+
+    def _rename_in_text(self, element: XmlElement) -> None:
+        if self.carriers:
+            name, data = (element.get(each) or "" for each in ("name", "data"))
+            element.set("name", re.sub(rf":{re.escape(self.old)}$", lambda _: f":{self.new}", name))
+            whole = re.compile(rf"(?<=[\">]){re.escape(self.old)}(?=[\"<])")
+            element.set("data", whole.sub(lambda _: self.new, data))
 
     def _rename(self, element: XmlElement) -> None:
         for name, value in element.items():
@@ -214,10 +225,16 @@ def find(root: XmlElement, path: str) -> XmlElement:
 
 
 def is_ours(element: XmlElement) -> bool:
-    """Whether an element is in our namespace, or inside an element that is."""
+    """Whether an element is a carrier: in our namespace, inside an element that is, or a text of MJCF."""
     inner: XmlElement | None = element
     while inner is not None:
-        if str(inner.tag).startswith(f"{{{NAMESPACE}}}"):
+        if str(inner.tag).startswith(f"{{{NAMESPACE}}}") or is_text_of_ours(inner):
             return True
         inner = inner.getparent()
     return False
+
+
+def is_text_of_ours(element: XmlElement) -> bool:
+    """Whether an element is a carrier of MJCF: a `<text name="twinform:..." data="..."/>`."""
+    # MuJoCo puts the prefix of an attached model before the name
+    return element.tag == "text" and "twinform:" in (element.get("name") or "")

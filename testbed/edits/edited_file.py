@@ -2,14 +2,18 @@
 
 from collections.abc import Mapping
 from functools import cached_property
+from typing import Literal
 
 from lxml import etree
 
+from testbed.edits.edit import is_text_of_ours
 from twinform.passes.carriers.annotations import may_write_scopes
 from twinform.passes.carriers.carriers import NAMESPACE
 from twinform.schemas import XmlElement
 
 OURS = f"{{{NAMESPACE}}}"
+Language = Literal["urdf", "sdf", "mjcf"]
+_LANGUAGES: Mapping[object, Language] = {"robot": "urdf", "sdf": "sdf", "mujoco": "mjcf"}
 
 
 class EditedFile:
@@ -22,6 +26,11 @@ class EditedFile:
     def root(self) -> XmlElement:
         """The tree as it stands in the file."""
         return etree.fromstring(self.text)
+
+    @property
+    def language(self) -> Language:
+        """The language that it is written in."""
+        return _LANGUAGES[self.root.tag]
 
     @cached_property
     def named(self) -> XmlElement:
@@ -36,7 +45,7 @@ class EditedFile:
         root = etree.fromstring(self.text)
         _give_names_back(root)
         for element in list(root.iter(etree.Element)):
-            if str(element.tag).startswith(OURS):
+            if str(element.tag).startswith(OURS) or is_text_of_ours(element):
                 _take_out(element)
             for name in [str(key) for key in element.keys() if str(key).startswith(OURS)]:  # noqa: SIM118 - an element
                 del element.attrib[name]

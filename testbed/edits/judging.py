@@ -3,25 +3,25 @@
 A converted file is edited and converted on. The robot of the edited file and that of the result have to be the same
 twice: as `twinform diff` reads the edited file, and as somebody reads it who does not know our carriers, since nothing
 that travels along may overrule what a person wrote. And the result is converted back once more, which has to give the
-edited file's robot again. What already differs before the edit is not the edit's doing.
+edited file's robot again. Where either file is MJCF, engines say so too, which read no carriers: see
+`engines.py`. What already differs before the edit is not the edit's doing.
 """
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
-from typing import Literal
 
 from lxml import etree
 
 from testbed.edits.edit import Edit
-from testbed.edits.edited_file import EditedFile
+from testbed.edits.edited_file import EditedFile, Language
+from testbed.edits.engines import NotReadError, differences_in_engines, is_refused_by_mujoco
 from testbed.edits.mistakes import KIND as MISTAKE
 from testbed.edits.plainly import Plainly, explained, plain_key
 from twinform.compiler import CompileError, convert
 from twinform.compiler.compare import Difference, diff
 from twinform.diagnostics import Diagnostic, Severity
 
-Language = Literal["urdf", "sdf"]
 Key = tuple[str | None, ...]
 """What differs: group, name and aspect of a `Difference`; plainly, see `plain_key`."""
 
@@ -66,25 +66,32 @@ class Converted:
     differing: frozenset[Key] = frozenset()
     differing_plainly: frozenset[Key] = frozenset()
     differing_when_back: frozenset[Key] = frozenset()
+    differing_in_engines: tuple[str, ...] = ()
+    not_read: str = ""
     warnings: frozenset[str] = field(default=frozenset())
 
 
-def unedited(text: bytes) -> Converted:
-    """The state before an edit.
+def unedited(text: bytes, to: Language | None = None) -> Converted:
+    """The state before an edit of a file that is converted on `to` a language, or else to the other of URDF and SDF.
 
     Raises:
         CompileError: the file cannot be converted on.
     """
-    to: Language = "sdf" if etree.fromstring(text).tag == "robot" else "urdf"
+    file = EditedFile(text)
+    to = to or ("sdf" if file.language == "urdf" else "urdf")
     made = convert(text, to=to)
-    found, plainly, back = _compared(EditedFile(text), made.text)
+    back = _back(file, made.text)
+    found, plainly, when_back = _compared(file, made.text, back)
+    in_engines, not_read = _in_engines(file, made.text, back, to)
     return Converted(
         text,
         to,
         made.text,
         frozenset(map(_key, found)),
         frozenset(map(plain_key, plainly)),
-        frozenset(map(_key, back)),
+        frozenset(map(_key, when_back)),
+        in_engines,
+        not_read,
         _warnings(made.diagnostics),
     )
 
@@ -106,16 +113,27 @@ def judge(
         return Verdict(fault, ("it is not refused",), warned, made.text)
     file = EditedFile(edited)
     try:
-        compared, read, back = _compared(file, made.text)
+        back = _back(file, made.text)
+        compared, read, when_back = _compared(file, made.text, back)
+        in_engines, not_read = _in_engines(file, made.text, back, before.to)
+    except CompileError as error:
+        if file.language == "mjcf" and is_refused_by_mujoco(file):  # it must not come back
+            return replace(_refused(error), result=made.text)
+        return Verdict(fault, (f"not compared: {error}",), warned, made.text)
     except Exception as error:  # noqa: BLE001 - a result that cannot be read is no result
         return Verdict(fault, (f"not compared: {type(error).__name__}: {error}",), warned, made.text)
     found = [each.message for each in compared if _key(each) not in before.differing]
     news_plainly = [each for each in read if plain_key(each) not in before.differing_plainly]
     reasons = [explained(each, plainly, file) for each in news_plainly]
-    found += [f"when it is back: {each.message}" for each in back if _key(each) not in before.differing_when_back]
+    differed = "an engine sees a difference before any edit" if before.differing_in_engines else ""
+    why = differed or before.not_read or not_read
+    if not why:
+        found += [f"in an engine: {each}" for each in in_engines]
+    found += [f"when it is back: {each.message}" for each in when_back if _key(each) not in before.differing_when_back]
     found += [f"plainly: {each.message}" for each, reason in zip(news_plainly, reasons, strict=True) if reason is None]
     outcome = fault if found else Outcome.WARNED if news else Outcome.SAME
-    return Verdict(outcome, tuple(found), warned, made.text, tuple(sorted({reason for reason in reasons if reason})))
+    known = {reason for reason in (*reasons, why) if reason}
+    return Verdict(outcome, tuple(found), warned, made.text, tuple(sorted(known)))
 
 
 def judge_edits(before: Converted, edits: Iterable[Edit], edited: bytes) -> Verdict:
@@ -137,12 +155,27 @@ def _plainly(edits: Iterable[Edit]) -> Plainly:
     return Plainly.ADDITIONS_TOO if any(kind.startswith("delete ") for kind in kinds) else Plainly.ALL
 
 
-def _compared(file: EditedFile, result: str) -> tuple[tuple[Difference, ...], ...]:
+def _back(file: EditedFile, result: str) -> str:
+    return convert(result.encode(), to=file.language).text
+
+
+def _compared(file: EditedFile, result: str, back: str) -> tuple[tuple[Difference, ...], ...]:
     """The differences between a file and its result; those without its carriers; those to the result converted back."""
-    made, language = result.encode(), "urdf" if file.root.tag == "robot" else "sdf"
-    back = convert(made, to=language).text.encode()
-    others = ((file.text, made), (etree.tostring(file.plain), made), (file.text, back))
-    return tuple(diff(one, other, carriers=True).differences for one, other in others)
+    made = result.encode()
+    others = ((file.text, made), (etree.tostring(file.plain), made), (file.text, back.encode()))
+    if file.language == "mjcf":  # MuJoCo is who reads it without carriers
+        others = (others[0], (b"", b""), others[2])
+    return tuple(diff(one, other, carriers=True).differences if one else () for one, other in others)
+
+
+def _in_engines(file: EditedFile, result: str, back: str, to: Language) -> tuple[tuple[str, ...], str]:
+    """What differs to engines, where MJCF is one of the languages; or why none of them reads the edited file."""
+    if "mjcf" not in {file.language, to}:
+        return (), ""
+    try:
+        return tuple(differences_in_engines(file, result, back)), ""
+    except NotReadError as error:
+        return (), f"the edited file is not read by {error.engine}"
 
 
 def _refused(error: CompileError) -> Verdict:

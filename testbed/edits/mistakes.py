@@ -11,7 +11,7 @@ KIND = "mistake"
 
 def make_a_mistake(scene: Scene, random: Random) -> Edit | None:
     """One of the mistakes that people make."""
-    made = random.choice(_MISTAKES)(scene, random)
+    made = random.choice(_MISTAKES_OF_MJCF if scene.is_mjcf else _MISTAKES)(scene, random)
     return Edit(KIND, made) if made else None
 
 
@@ -64,3 +64,30 @@ def _two_parents(scene: Scene, random: Random) -> tuple[Operation, ...]:
 
 
 _MISTAKES = (_word_for_number, _unknown_end, _no_child, _link_twice, _link_without_declaration, _two_parents)
+
+
+def _word_in_mjcf(scene: Scene, random: Random) -> tuple[Operation, ...]:
+    masses = scene.parts("inertial")
+    return (SetAttribute(path_of(random.choice(masses)), "mass", "heavy"),) if masses else ()
+
+
+def _unknown_name_in_mjcf(scene: Scene, random: Random) -> tuple[Operation, ...]:
+    """A reference to a joint or body that is not there."""
+    naming = ("joint", "joint1", "body1", "body2")
+    found = [(each, name) for each in scene.own for name in naming if each.get(name)]
+    if not found:
+        return ()
+    element, name = random.choice(found)
+    return (SetAttribute(path_of(element), name, scene.fresh("nowhere")),)
+
+
+def _name_twice_in_mjcf(scene: Scene, random: Random) -> tuple[Operation, ...]:
+    among = random.choice([scene.links, scene.joints])
+    named = [each for each in among if name_of(each)]
+    if len(named) < 2:
+        return ()
+    one, other = random.sample(named, 2)
+    return (SetAttribute(path_of(one), "name", name_of(other)),)
+
+
+_MISTAKES_OF_MJCF = (_word_in_mjcf, _unknown_name_in_mjcf, _name_twice_in_mjcf)

@@ -144,3 +144,51 @@ SDF_JOINT_PARTS = {
     "physics": "<physics><ode><cfm_damping>true</cfm_damping></ode></physics>",
     "sensor": '<sensor name="added_ft" type="force_torque"><update_rate>20</update_rate></sensor>',
 }
+
+
+def _mjcf_geom(name: str, random: Random, more: str) -> str:
+    shape = random.choice(
+        ['type="box" size="0.05 0.1 0.15"', 'type="sphere" size="0.07"', 'type="cylinder" size="0.05 0.2"']
+    )
+    return f'<geom name="{name}" {shape} {_mjcf_place(random)} density="0" {more}/>'
+
+
+def _mjcf_place(random: Random) -> str:
+    return f'pos="{_numbers(random, 0, 0.1, -0.2, 0.35)}" quat="{random.choice(["1 0 0 0", "0.8 0 0.6 0"])}"'
+
+
+def mjcf_body(name: str, random: Random) -> str:
+    """A body with a mass and a shape, and a joint or none."""
+    axis = random.choice(["0 0 1", "0 1 0", "1 0 0"])
+    limit = random.choice(["", ' limited="true" range="-0.5 0.75"'])
+    kind = random.choice(["hinge", "slide", "ball", ""])
+    limit = "" if kind == "ball" else limit
+    joint = f'<joint name="{name}_joint" type="{kind}" axis="{axis}"{limit}/>' if kind else ""
+    inertial = '<inertial pos="0 0 0.1" mass="1.25" diaginertia="0.02 0.03 0.04"/>'
+    shape = _mjcf_geom(f"{name}_shape", random, "")
+    return f'<body name="{name}" {_mjcf_place(random)}>{inertial}{joint}{shape}</body>'
+
+
+MJCF_PARTS: Mapping[str, _Make] = {
+    "visual": lambda name, random: _mjcf_geom(name, random, 'contype="0" conaffinity="0" rgba="0.8 0.1 0.1 1"'),
+    "collision": lambda name, random: _mjcf_geom(name, random, 'friction="0.4 0.005 0.0001"'),
+    "site": lambda name, random: f'<site name="{name}" {_mjcf_place(random)}/>',
+}
+MJCF_JOINT_PARTS: tuple[Mapping[str, str], ...] = (
+    {"damping": "0.75"},
+    {"frictionloss": "0.25"},
+    {"armature": "0.125"},
+    {"stiffness": "3", "springref": "0.1"},
+    {"limited": "true", "range": "-0.5 0.75"},
+    {"actuatorfrclimited": "true", "actuatorfrcrange": "-7 7"},
+    {"pos": "0.1 0 0.2"},
+)
+MJCF_SECTIONS = (
+    ("actuator", '<motor name="{name}" joint="{one}" gear="2"/>'),
+    ("actuator", '<position name="{name}" joint="{one}" kp="20"/>'),
+    ("sensor", '<jointpos name="{name}" joint="{one}"/>'),
+    ("equality", '<joint name="{name}" joint1="{one}" joint2="{other}" polycoef="0.1 0.5 0 0 0"/>'),
+    ("equality", '<connect name="{name}" body1="{one}" body2="{other}" anchor="0 0 0.1"/>'),
+    ("contact", '<exclude name="{name}" body1="{one}" body2="{other}"/>'),
+)
+"""What stands in a section of MJCF and names joints or bodies."""

@@ -11,13 +11,14 @@ from twinform.schemas import XmlElement
 
 PARTS = ("visual", "collision", "sensor", "material", "gazebo", "plugin", "frame", "inertial", "dynamics", "surface")
 """Parts that a person takes out, in either format; links and joints hang together and are apart."""
+PARTS_OF_MJCF = ("geom", "site", "joint", "freejoint", "inertial", "camera", "light", "exclude", "connect", "weld")
 MORE_PARTS = ("transmission", "ros2_control", "light", "safety_controller", "calibration", "mimic", "axis", "pose")
 _MODEL = frozenset({"model", "robot"})
 
 
 @dataclass(frozen=True)
 class Scene:
-    """The tree of a converted file, URDF or SDF."""
+    """The tree of a converted file, URDF, SDF or MJCF, whose bodies are its links."""
 
     root: XmlElement
 
@@ -25,6 +26,11 @@ class Scene:
     def is_urdf(self) -> bool:
         """Whether it is URDF."""
         return self.root.tag == "robot"
+
+    @property
+    def is_mjcf(self) -> bool:
+        """Whether it is MJCF."""
+        return self.root.tag == "mujoco"
 
     @cached_property
     def own(self) -> tuple[XmlElement, ...]:
@@ -39,19 +45,19 @@ class Scene:
     @cached_property
     def models(self) -> tuple[XmlElement, ...]:
         """The robot, or the models of SDF, nested ones too."""
-        if self.is_urdf:
+        if self.is_urdf or self.is_mjcf:
             return (self.root,)
         return tuple(each for each in self.own if each.tag == "model")
 
     @cached_property
     def links(self) -> tuple[XmlElement, ...]:
         """All links."""
-        return tuple(self._children("link"))
+        return tuple(self._children("worldbody//body" if self.is_mjcf else "link"))
 
     @cached_property
     def joints(self) -> tuple[XmlElement, ...]:
         """All joints between links."""
-        return tuple(self._children("joint"))
+        return tuple(self._children("worldbody//joint" if self.is_mjcf else "joint"))
 
     def parts(self, *tags: str) -> list[XmlElement]:
         """The elements with one of these tags, outside carriers."""
@@ -65,7 +71,7 @@ class Scene:
 
     def _children(self, tag: str) -> Iterator[XmlElement]:
         for model in self.models:
-            yield from model.findall(tag)
+            yield from model.iterfind(tag)
 
 
 def name_of(element: XmlElement) -> str:

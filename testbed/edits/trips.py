@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 
 from testbed.edits.edit import Edit
+from testbed.edits.edited_file import EditedFile
 from testbed.edits.judging import Converted, Verdict, edits_carriers, judge_edits, unedited
 
 TRIPS = 3
@@ -36,7 +37,7 @@ def trips(before: Converted, draws: Iterable[Draw]) -> Iterator[Trip]:
         yield Trip(before, edits, edited, verdict)
         if verdict.result is None or verdict.is_fault or edits_carriers(edits):
             return
-        after = unedited(verdict.result.encode())
+        after = unedited(verdict.result.encode(), EditedFile(before.text).language)
         before = replace(
             after,
             differing=after.differing & before.differing,

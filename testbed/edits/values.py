@@ -10,11 +10,16 @@ from testbed.edits.scene import Scene
 from twinform.schemas import XmlElement
 
 _NUMBER = re.compile(r"[+-]?(\d++\.?\d*+|\.\d++)([eE][+-]?\d++)?\Z")
-_SIGNED = frozenset({"xyz", "rpy", "pose", "origin", "axis", "lower", "upper", "offset", "multiplier", "quat_xyzw"})
+_SIGNED = frozenset(
+    {"xyz", "rpy", "pose", "origin", "axis", "lower", "upper", "offset", "multiplier", "quat_xyzw", "pos", "quat"}
+    | {"range", "springref", "polycoef", "anchor", "relpose", "dir", "gravity"}
+)
 """Values that may be below zero; all others are changed by a factor, so that they keep their sense."""
 _SHARES = frozenset({"rgba", "ambient", "diffuse", "specular", "emissive", "transparency", "ratio"})
 """Values from 0 to 1."""
 _NO_QUANTITIES = frozenset({"name", "version", "filename", "reference"})
+_CARRIED_NUMBER = re.compile(r"(?<=>)-?\d+(\.\d+)?(?=<)")
+"""A number in the XML that a carrier of MJCF has for its data."""
 _TYPES = {
     True: ("revolute", "continuous", "prismatic", "fixed", "floating", "planar"),
     False: ("revolute", "continuous", "prismatic", "fixed", "ball", "universal", "screw"),
@@ -47,7 +52,14 @@ def change_number(scene: Scene, random: Random) -> Edit | None:
 
 def change_carried_number(scene: Scene, random: Random) -> Edit | None:
     """Another number in a carrier."""
-    return _numbered("carrier: a number", scene.carried, random)
+    if not scene.is_mjcf:
+        return _numbered("carrier: a number", scene.carried, random)
+    spots = [(each, found) for each in scene.carried for found in _CARRIED_NUMBER.finditer(each.get("data") or "")]
+    if not spots:
+        return None
+    text, found = random.choice(spots)
+    data = f"{found.string[: found.start()]}{float(found.group()) * 2 + 1:g}{found.string[found.end() :]}"
+    return Edit("carrier: a number", (SetAttribute(path_of(text), "data", data),))
 
 
 def change_type(scene: Scene, random: Random) -> Edit | None:

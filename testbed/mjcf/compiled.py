@@ -19,6 +19,8 @@ Array = Any
 """An array of numpy."""
 _OFF: tuple[str, ...] = ("fusestatic", "discardvisual", "balanceinertia", "strippath")
 """What MuJoCo does to a URDF unless it is told not to."""
+_SIZES = {2: 1, 3: 2, 5: 2}
+"""How many sizes mean something of a sphere, capsule and cylinder."""
 FREE, BALL, SLIDE, HINGE = range(4)
 """The types of joints, with MuJoCo's numbers."""
 MESH = 7
@@ -88,7 +90,7 @@ class Compiled:
         found = dict[str, int]()
         for number in range(self.model.njnt):
             body = self.model.body(int(self.model.jnt_bodyid[number])).name
-            found[self.model.joint(number).name or body] = number
+            found[self.model.joint(number).name or body or "the only joint without a name"] = number
         return found
 
     def facts(self, number: int) -> JointFacts:
@@ -114,7 +116,7 @@ class Compiled:
         touches = bool(model.geom_contype[number] or model.geom_conaffinity[number])
         kind = int(model.geom_type[number])
         size = () if kind == MESH else tuple(map(float, model.geom_size[number]))
-        return GeomFacts(body, kind, touches, size)
+        return GeomFacts(body, kind, touches, size[: _SIZES.get(kind)])
 
     def bounds(self, number: int) -> Array:
         """The least and the greatest coordinates of a mesh in the world, where it is now."""
@@ -133,8 +135,10 @@ class Compiled:
             mujoco.mj_forward(model, data)
         mass = np.zeros((model.nv, model.nv))
         mujoco.mj_fullM(model, data, mass)
-        poses = {model.body(i).name: pose_of(data.xpos[i], data.xmat[i]) for i in range(1, model.nbody)}
-        sites = {model.site(i).name: pose_of(data.site_xpos[i], data.site_xmat[i]) for i in range(model.nsite)}
+        named = (i for i in range(1, model.nbody) if model.body(i).name)  # names are made for others
+        poses = {model.body(i).name: pose_of(data.xpos[i], data.xmat[i]) for i in named}
+        places = (i for i in range(model.nsite) if model.site(i).name)
+        sites = {model.site(i).name: pose_of(data.site_xpos[i], data.site_xmat[i]) for i in places}
         geoms = [pose_of(data.geom_xpos[i], data.geom_xmat[i]) for i in range(model.ngeom)]
         return Motion(mass, data.qfrc_bias.copy(), sites | poses, geoms)
 

@@ -40,6 +40,8 @@ def _pair(source: Compiled, made: Compiled) -> tuple[list[Pair], list[str]]:
     others = dict(made.joints)
     for name, number in source.joints.items():
         other = others.pop(name, None)
+        if other is None and not source.model.joint(number).name:  # and its body has none
+            other = next((others.pop(each) for each in [*others] if not made.model.joint(others[each]).name), None)
         if other is None:
             stem, _, end = name.rpartition("_")
             other = others.pop(stem + _PLANAR.get(end, " "), None)

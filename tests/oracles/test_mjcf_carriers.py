@@ -6,6 +6,8 @@ from typing import Any
 
 import pytest
 
+from testbed.edits import draw_edits
+from testbed.edits.judging import judge_edits, unedited
 from tests.profile import examples
 from twinform.compiler import convert
 
@@ -59,14 +61,11 @@ _EDITED = (
 
 @pytest.mark.parametrize("name", _EDITED)
 def test_edits_of_mjcf_win(name: str) -> None:
-    from testbed.edits.mjcf_edits import draw_mjcf_edit  # noqa: PLC0415 - it needs MuJoCo
-    from testbed.edits.mjcf_judging import judge_mjcf  # noqa: PLC0415 - see above
-
     source = _CASES / name
-    to = source.suffix.removeprefix(".")
-    text = convert(source, to="mjcf").text.encode()
-    assert judge_mjcf(text, to).outcome == "same"
+    before = unedited(convert(source, to="mjcf").text.encode(), "urdf" if source.suffix == ".urdf" else "sdf")
+    assert not before.not_read
+    assert before.differing_in_engines == ()
     for seed in range(examples(0.2).max_examples):
-        edit, edited = draw_mjcf_edit(text, Random(seed))
-        verdict = judge_mjcf(edited, to)
-        assert verdict.outcome != "wrong", f"{edit}: {verdict.reason}"
+        edits, edited = draw_edits(before.text, Random(seed))
+        verdict = judge_edits(before, edits, edited)
+        assert not verdict.is_fault, "\n".join((*map(str, edits), *verdict.differences))

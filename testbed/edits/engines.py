@@ -1,0 +1,186 @@
+"""What engines that know no carriers see of an edited file and its result, where one of them is MJCF.
+
+MuJoCo reads MJCF, and URDF as it stands; Drake reads SDF. Meshes are left out: what is edited here has no files.
+"""
+
+import tempfile
+from collections import Counter
+from collections.abc import Iterator
+from importlib.util import find_spec
+from itertools import combinations
+from pathlib import Path
+from typing import Any
+
+from lxml import etree
+
+from testbed.edits.edited_file import EditedFile
+
+_DIGITS = 6
+
+
+class NotReadError(Exception):
+    """An engine does not read an edited file, or is not installed."""
+
+    def __init__(self, engine: str) -> None:
+        super().__init__(f"{engine} does not read it")
+        self.engine = engine
+
+
+def differences_in_engines(file: EditedFile, result: str, back: str) -> Iterator[str]:
+    """Yield what differs between the robot of an edited file and that of its result, of which one is MJCF.
+
+    Raises:
+        NotReadError: the edited file is not read.
+    """
+    if find_spec("mujoco") is None:
+        raise NotReadError("MuJoCo, which is not here")
+    match file.language:
+        case "mjcf":
+            yield from _of_mjcf(file, back)
+        case "urdf":
+            yield from _of_urdf(file, result)
+        case "sdf":
+            yield from _of_sdf(file, result)
+
+
+def is_refused_by_mujoco(file: EditedFile) -> bool:
+    """Whether MuJoCo does not read an edited MJCF either."""
+    try:
+        _compiled(file)
+    except NotReadError:
+        return True
+    return False
+
+
+def _compiled(file: EditedFile) -> Any:
+    # these modules need numpy, which not everybody has who runs the tests of the other languages
+    from testbed.mjcf.compiled import UnreadableError, compile_mjcf, without_meshes  # noqa: PLC0415
+
+    try:
+        return compile_mjcf(without_meshes(file.text.decode()))
+    except UnreadableError as error:
+        raise NotReadError("MuJoCo") from error
+
+
+def _of_mjcf(file: EditedFile, back: str) -> Iterator[str]:
+    from testbed.mjcf.compiled import UnreadableError, compile_mjcf, without_meshes  # noqa: PLC0415
+    from testbed.mjcf.differences import differences  # noqa: PLC0415
+
+    source = _compiled(file)
+    try:
+        made = compile_mjcf(without_meshes(back))
+    except UnreadableError as error:
+        yield f"MuJoCo refuses the result: {error}"
+        return
+    yield from differences(source, made)
+    yield from _of_looks(source, made)
+
+
+def _of_looks(one: Any, other: Any) -> Iterator[str]:
+    """Yield what differs in colors, in friction, and in how many parts there are of each kind."""
+    for name, of_one in _looks(one).items():
+        if of_one != (of_other := _looks(other)[name]):
+            yield f"{name}: only before {list(of_one - of_other)[:2]}, only after {list(of_other - of_one)[:2]}"
+
+
+def _of_urdf(file: EditedFile, result: str) -> Iterator[str]:
+    from testbed.mjcf.compiled import UnreadableError, compile_mjcf, compile_urdf, without_meshes  # noqa: PLC0415
+    from testbed.mjcf.differences import differences  # noqa: PLC0415
+
+    try:
+        source = compile_urdf(_without_meshes_of_urdf(file), absent_is_nothing=True)
+    except UnreadableError as error:
+        raise NotReadError("MuJoCo") from error
+    try:
+        made = compile_mjcf(_held(without_meshes(result)))
+    except UnreadableError as error:
+        yield f"MuJoCo refuses the result: {error}"
+        return
+    yield from differences(source, made)
+
+
+def _of_sdf(file: EditedFile, result: str) -> Iterator[str]:
+    from testbed.mjcf.compiled import UnreadableError, compile_mjcf, without_meshes  # noqa: PLC0415
+    from testbed.mjcf.from_drake import UncomparableError, differences_from_drake  # noqa: PLC0415
+    from twinform.testing.oracles import drake  # noqa: PLC0415
+
+    try:
+        made = compile_mjcf(without_meshes(result))
+    except UnreadableError as error:
+        yield f"MuJoCo refuses the result: {error}"
+        return
+    if find_spec("pydrake") is None:
+        raise NotReadError("Drake, which is not here")
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "edited.sdf"
+        path.write_bytes(file.text)
+        try:
+            drake.parts(path)
+        except Exception as error:  # Drake has no narrower type
+            raise NotReadError("Drake") from error
+        try:
+            yield from differences_from_drake(path, made)
+        except UncomparableError as error:
+            raise NotReadError("Drake with a joint that is compared") from error
+
+
+def _without_meshes_of_urdf(file: EditedFile) -> bytes:
+    root = etree.fromstring(file.text)
+    for mesh in [*root.iter("mesh")]:
+        shape = mesh.getparent()
+        around = shape.getparent() if shape is not None else None
+        if around is not None and (link := around.getparent()) is not None:
+            link.remove(around)
+    return etree.tostring(root)
+
+
+def _held(text: str) -> str:
+    """MJCF with its robots held at the world, as MuJoCo takes all URDF."""
+    root = etree.fromstring(text.encode())
+    for joint in [*root.iterfind("worldbody/body/freejoint"), *root.iterfind("worldbody/body/joint[@type='free']")]:
+        body = joint.getparent()
+        if body is not None:
+            body.remove(joint)
+    for each in root.findall("keyframe"):  # it has a number for each freedom
+        root.remove(each)
+    return etree.tostring(root, encoding="unicode")
+
+
+def _looks(compiled: Any) -> dict[str, Counter[object]]:
+    model = compiled.model
+    touched = [bool(a or b) for a, b in zip(model.geom_contype, model.geom_conaffinity, strict=True)]
+    numbers = range(model.ngeom)
+    return {
+        "colors": Counter(tuple(model.geom_rgba[each].round(_DIGITS)) for each in numbers if not touched[each]),
+        "friction": Counter(round(float(model.geom_friction[each][0]), _DIGITS) for each in numbers if touched[each]),
+        "actuators": Counter(
+            (int(model.actuator_trntype[each]), *_rounded(model.actuator_gear[each], model.actuator_gainprm[each][:3]))
+            for each in range(model.nu)
+        ),
+        "sensors": Counter(int(each) for each in model.sensor_type),
+        "equalities": Counter(
+            (int(model.eq_type[each]), *_rounded(model.eq_data[each][:5])) for each in range(model.neq)
+        ),
+        "contacts": Counter(_touching(model)),
+    }
+
+
+def _rounded(*arrays: Any) -> tuple[float, ...]:
+    return tuple(float(number) for array in arrays for number in array.round(_DIGITS))
+
+
+def _touching(model: Any) -> Iterator[tuple[str, str]]:
+    """Yield the pairs of named geoms that may touch, by their bits, by what is excluded and by what holds what."""
+    excluded = {(int(each) >> 16, int(each) & 0xFFFF) for each in model.exclude_signature}
+    geoms = sorted((model.geom(each).name, each) for each in range(model.ngeom) if model.geom(each).name)
+    for (one, first), (other, second) in combinations(geoms, 2):
+        bits = model.geom_contype[first] & model.geom_conaffinity[second]
+        if not bits and not model.geom_contype[second] & model.geom_conaffinity[first]:
+            continue
+        bodies = int(model.geom_bodyid[first]), int(model.geom_bodyid[second])
+        held = [int(model.body_weldid[each]) for each in bodies]
+        above = [int(model.body_weldid[model.body_parentid[each]]) for each in held]
+        # URDF and SDF say nothing of contacts between two links that a joint connects
+        is_joined = 0 not in bodies and (held[0] == above[1] or held[1] == above[0])
+        if held[0] != held[1] and not is_joined and not excluded & {bodies, bodies[::-1]}:
+            yield one, other
