@@ -20,7 +20,7 @@ from testbed.edits.judging import Converted, Outcome, Verdict, judge, judge_edit
 from testbed.edits.mistakes import KIND as MISTAKE
 from testbed.edits.plainly import Plainly
 from testbed.edits.trips import TRIPS, Draw, trips
-from testbed.mjcf_models import PACKAGES
+from testbed.mjcf.canonical_models import PACKAGES
 from testbed.output_files import kept
 
 OUT = output_files.OUT / "edits"

@@ -8,7 +8,7 @@ from reports.text_survives.edit_jobs import Job
 from reports.text_survives.edits import generated, measured
 from testbed.corpus.files import Kind, models
 from testbed.edits.edited_file import Language
-from testbed.mjcf_models import CASES, PACKAGES, package_files
+from testbed.mjcf.canonical_models import CASES, PACKAGES, package_files
 
 _EDITS = 8
 _MODELS, _EDITS_OF_MODELS = 200, 12
