@@ -235,7 +235,7 @@ def typed_value(type: str | None, text: str, format: str = "sdf", unit: str = ""
 
     A text that is not of its type is kept as text.
     """
-    if type != "bool" and type not in NUMBERS and type not in COLORS and not (type or "").startswith(_LISTS):
+    if type is None or not (type == "bool" or type in NUMBERS or type in COLORS or type.startswith(_LISTS)):
         return None
     try:
         parsed = parse_value(type, text, format)
