@@ -20,11 +20,11 @@ from twinform.testing import Case, cases
 _TESTS = Path(__file__).parent
 _CASES, _FINDINGS = _TESTS / "cases", _TESTS / "findings"
 _PASSES = re.compile(r"<!--\s*passes:\s*(.*?)\s*-->", re.DOTALL)
-_FOLDERS = ("check", "convert", "elements", "passes", "versions", "whole")
-"""The cases of passes stay in their format, and all others are converted to the other one."""
+_FOLDERS = ("check", "convert", "elements", "from_mjcf", "mjcf", "passes", "versions", "whole")
+"""The cases of passes stay in their format, and all others are converted to the other one, those of MJCF to SDF."""
 _LOOKED_IN = re.compile(r"(?<=looked in )[^;]+")
 """Folders of this machine, which stand in the help about files that are not found."""
-_OTHER: dict[str, Literal["urdf", "sdf"]] = {"urdf": "sdf", "sdf": "urdf"}
+_OTHER: dict[str, Literal["urdf", "sdf"]] = {"urdf": "sdf", "sdf": "urdf", "mjcf": "sdf"}
 
 
 def _all() -> list[Case]:

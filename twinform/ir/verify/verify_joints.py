@@ -40,8 +40,8 @@ def verify_joint(joint: Joint, sink: DiagnosticSink, *, every_axis: bool = False
     for number, (name, each) in enumerate((("axis", axis), ("axis2", axis2))):
         if each is not None and freedoms > number:
             _verify_axis(joint, name, each, sink, is_urdf=not every_axis)
-        elif each is not None and not (each.source and each.source.step == "joint"):
-            # what MJCF says of a ball stands in its joint, and needs an axis only here
+        elif each is not None and not _is_of_mjcf(each):
+            # what MJCF says of a ball needs an axis only here
             _verify_unused(joint, name, each, sink, is_read=every_axis)
     if freedoms and (axis is None or axis.xyz is None):
         _missing(joint, "axis", sink)
@@ -71,7 +71,8 @@ def _verify_unused(joint: Joint, name: str, axis: Axis, sink: DiagnosticSink, *,
 def _verify_axis(joint: Joint, name: str, axis: Axis, sink: DiagnosticSink, *, is_urdf: bool) -> None:
     if axis.xyz is not None:
         x, y, z = axis.xyz
-        if x * x + y * y + z * z != 1.0:
+        if x * x + y * y + z * z != 1.0 and not _is_of_mjcf(axis):
+            # any length is usual in MJCF, and its front end has refused those without one
             _verify_length(joint, axis.xyz, _place(joint, name, axis), sink)
     if axis.limit is not None:
         _verify_limit(joint, axis.limit, sink, is_urdf=is_urdf)
@@ -80,6 +81,11 @@ def _verify_axis(joint: Joint, name: str, axis: Axis, sink: DiagnosticSink, *, i
 def _place(joint: Joint, name: str, axis: Axis) -> Location:
     """Where the axis is written. Where URDF's <limit> stands first, the axis was synthesized there."""
     return axis.location if axis.source and axis.source.step == name else joint.location.at(name)
+
+
+def _is_of_mjcf(axis: Axis) -> bool:
+    """Whether it was read of MJCF, where an axis is an attribute of its joint."""
+    return axis.source is not None and axis.source.step == "joint"
 
 
 def _verify_length(joint: Joint, xyz: Vector3, where: Location, sink: DiagnosticSink) -> None:

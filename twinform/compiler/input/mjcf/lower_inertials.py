@@ -179,7 +179,8 @@ def inertial_of(found: WrittenInertia, scale: float, keeper: RemainderKeeper) ->
     if scale != 1.0:
         solid = with_mass(solid, solid.mass * scale)
     if solid.mass <= LEAST:
-        message = f"body {piece.name!r} has no mass; SDF needs one, which is {TOKEN.mass:g} kg"
+        called = f"body {piece.name!r}" if piece.name else "this body"
+        message = f"{called} has no mass; SDF needs one, which is {TOKEN.mass:g} kg"
         keeper.approximate(message, piece.location, rules.TINY_MASS)
         kept = (holder(keeper.whole(piece)),) if found.is_written else ()
         return with_annotation(TOKEN, UNSAID, "inertial"), kept

@@ -50,7 +50,8 @@ def lower_sensor(found: SiteSensor, name: str, frame: str, link: Link, keeper: R
     inside = _parameters(found, link)
     if inside is None:
         return None
-    elements = [keeper.whole(each, "sensor", f"SDF has a {found.type} sensor instead") for each in found.pieces]
+    why = f"SDF has a sensor of type {found.type} instead"
+    elements = [keeper.whole(each, "sensor", why) for each in found.pieces]
     turn = _Z_TO_X if found.type == "gpu_lidar" else None
     pose = Pose.unchecked(
         quat_xyzw=turn, rotation_format="quat_xyzw" if turn else None, relative_to=frame, source=found.pieces[0].source
