@@ -10,7 +10,7 @@ from twinform.compiler.input.mjcf.carried_texts import CarriedText, nodes_of, re
 from twinform.compiler.input.mjcf.joined_joints import join_joints
 from twinform.compiler.input.mjcf.one_model import one_model
 from twinform.compiler.input.mjcf.renamed_parts import renamed_parts
-from twinform.compiler.input.mjcf.restore_contacts import note_contacts, settle_contacts
+from twinform.compiler.input.mjcf.restore_contacts import settle_contacts
 from twinform.compiler.input.mjcf.restore_sensors import (
     restored_settings,
     sensors_back,
@@ -18,7 +18,7 @@ from twinform.compiler.input.mjcf.restore_sensors import (
     without_parts_of_sensors,
 )
 from twinform.compiler.input.mjcf.spellings import Spellings
-from twinform.compiler.input.mjcf.usual_remainders import without_assets, without_usual
+from twinform.compiler.input.mjcf.usual_remainders import without_assets
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document, Format, Frame, Joint, Link, Model, Node, Opaque, Pose, World, replace_fields, rewrite
 from twinform.ir.element import Namespaces
@@ -121,9 +121,7 @@ class _Merged:
 
     def document(self) -> Document:
         """The document as it was before it was written, with all edits since."""
-        model = without_usual(one_model(self.lowered, is_free=_is_free(self.root)))
-        model = note_contacts(model, self.root).copy(self_collide=None)
-        model = self._named(model)
+        model = self._named(one_model(self.lowered, self.root, is_free=_is_free(self.root)))
         back = sensors_back(self.links, self.joints, self.world, self.root, self.sink)
         self.links, self.joints, self.world, self.parts = back
         model = without_parts_of_sensors(model, self.parts)
@@ -132,7 +130,7 @@ class _Merged:
             self._stale(f"joint {each.name!r} is no joint of type {each.type} any more", each)
         self.joints = [each for each in self.joints if each not in left]
         model = self._attached(self._merged(self._with_loops(model)))
-        model = without_assets(without_usual(model), self.spellings.agreed)
+        model = without_assets(model, self.spellings.agreed)
         for stale in self.merging.stale:
             what = f"{type(stale).__name__.lower()} {getattr(stale, 'name', None) or ''}".strip()
             report_stale(self.sink, f"what a carrier holds of the {what} belongs to nothing in the file", stale.source)

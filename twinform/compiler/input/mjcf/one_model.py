@@ -1,6 +1,8 @@
 """The trees of a file of MJCF as one model: what was one model before it was written, and has several roots."""
 
-from twinform.ir import Document, Frame, Joint, Link, Model, Opaque, Pose, World, rewrite
+from twinform.compiler.input.mjcf.restore_contacts import with_contacts
+from twinform.compiler.input.mjcf.usual_remainders import without_usual
+from twinform.ir import Collision, Document, Frame, Joint, Link, Model, Node, Opaque, Pose, World, rewrite
 from twinform.ir.frames import WORLD
 from twinform.ir.transform import Transform
 from twinform.passes.carriers.annotations import (
@@ -12,13 +14,15 @@ from twinform.passes.carriers.annotations import (
 )
 from twinform.passes.legalise.changed_names import NAME
 from twinform.passes.shared.nodes import reserve_name
+from twinform.schemas import XmlElement
 
 
-def one_model(document: Document, *, is_free: bool) -> Model:
+def one_model(document: Document, root: XmlElement, *, is_free: bool) -> Model:
     """The links, joints and frames of all models of a document in one, whose frame is that of the world.
 
     A static tree, and the only one unless it `is_free`, hangs from the world by a fixed joint that is annotated as
-    made. All orientations are roll, pitch and yaw; a quaternion comes back where a carrier says so.
+    made. All orientations are roll, pitch and yaw; a quaternion comes back where a carrier says so. Remainders that
+    are in every written file are gone, and what the geoms of the canonical tree `root` say of contacts is noted.
     """
     world = document.worlds[0] if document.worlds else None
     models = world.models if world else document.models
@@ -47,7 +51,21 @@ def one_model(document: Document, *, is_free: bool) -> Model:
         opaque=tuple(opaque),
         source=source,
     )
-    return rewrite(rewrite(model, Pose, _in_rpy), Link, _with_shapes_apart)
+    geoms = {each.get("name") or "": each for each in root.iter("geom")}
+
+    def as_before(node: Node) -> Node:
+        match node:
+            case Pose():
+                return _in_rpy(node)
+            case Link():
+                node = _with_shapes_apart(node)
+            case Collision():
+                return with_contacts(geoms, without_usual(node))
+            case _:
+                pass
+        return without_usual(node)
+
+    return rewrite(model, Node, as_before)
 
 
 def _with_shapes_apart(link: Link) -> Link:

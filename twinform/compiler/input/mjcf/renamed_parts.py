@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from twinform.ir import Format, Frame, Joint, Link, Model
+from twinform.ir import Format, Frame, Joint, Link, Model, replace_fields
 from twinform.ir.scopes import SCOPE
 from twinform.passes.carriers.annotations import MADE_NAME, find_annotation, is_synthesized, without_annotation
 from twinform.passes.carriers.mjcf_texts import LOOP
@@ -50,7 +50,8 @@ def renamed_parts(model: Model, links: Sequence[Link], joints: Sequence[Joint], 
         for _, field in _FIELDS
     }
     changed = {key: new for key, new in names.items() if key[1] != new}
-    return renamed(model.copy(**plain), changed, Format.SDF)
+    model = replace_fields(model, **plain)
+    return renamed(model, changed, Format.SDF) if changed else model
 
 
 def _written(node: Node) -> str:

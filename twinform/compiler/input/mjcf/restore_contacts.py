@@ -5,7 +5,6 @@ again say that nobody has edited them. What was edited stays with the geom as it
 """
 
 from collections.abc import Mapping
-from functools import partial
 from typing import NamedTuple, cast
 
 from twinform.ir import Collision, Element, Link, Model, Node, Opaque, Surface, World, replace_fields, rewrite
@@ -31,13 +30,8 @@ class Touch(NamedTuple):
     priority: int
 
 
-def note_contacts(model: Model, root: XmlElement) -> Model:
-    """The model with annotations of what its geoms say of contacts, and without what is computed of that."""
-    geoms = {each.get("name") or "": each for each in root.iter("geom")}
-    return rewrite(model, Collision, partial(_noted, geoms))
-
-
-def _noted(geoms: Mapping[str, XmlElement], collision: Collision) -> Collision:
+def with_contacts(geoms: Mapping[str, XmlElement], collision: Collision) -> Collision:
+    """The collision with an annotation of what its geom says of contacts, and without what is computed of that."""
     geom = geoms.get(collision.name or "")
     if geom is None:
         return collision

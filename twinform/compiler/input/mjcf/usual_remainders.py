@@ -24,12 +24,14 @@ _USUAL: Mapping[str, Mapping[str, frozenset[str] | None]] = {
 
 
 def without_usual(node: AnyNode) -> AnyNode:
-    """The node, and all in it, without remainders that only hold what is written for every robot."""
-    return rewrite(node, Node, _without_usual, having=bits_of_ours("mjcf"))
+    """The node without remainders of its own that only hold what is written for every robot."""
+    if not any(map(_is_kept, node.opaque)):
+        return node
+    return replace_fields(node, opaque=tuple(left for part in node.opaque if (left := _left_of(part)) is not None))
 
 
 def without_assets(model: Model, names: Collection[tuple[str, str]]) -> Model:
-    """The model without remainders of assets that are written again for what comes back.
+    """The model without usual remainders, and without those of assets that are written again for what comes back.
 
     A shape does not keep the name of a material of which nothing is left: what it looks like says all of it.
     """
@@ -45,11 +47,13 @@ def without_assets(model: Model, names: Collection[tuple[str, str]]) -> Model:
         )
         return _left_of(part.copy(element=part.element.copy(children=sections)))
 
-    opaque = tuple(made for part in model.opaque if (made := left(part)) is not None) if names else model.opaque
+    opaque = without_usual(model).opaque
+    opaque = tuple(made for part in opaque if (made := left(part)) is not None) if names else opaque
     kept = [each for part in opaque if part.element and _is_kept(part) for each in part.element.children]
     known = {each.get("name") for section in kept if section.name == "asset" for each in section.children}
 
     def without_name(node: Node) -> Node:
+        node = without_usual(node)
         if not isinstance(node, Visual | Collision):
             return node
         made = [part if part.element is None else _without_material(part, known) for part in node.opaque]
@@ -72,13 +76,6 @@ def _name_of(element: Element) -> tuple[str, str]:
     return element.name, element.get("name") or ""
 
 
-def _without_usual(node: Node) -> Node:
-    if not any(_is_kept(part) for part in node.opaque):
-        return node
-    kept = [left for part in node.opaque if (left := _left_of(part)) is not None]
-    return replace_fields(node, opaque=tuple(kept))
-
-
 def _is_kept(part: Opaque) -> bool:
     return part.element is not None and part.element.name == KEPT
 
@@ -87,7 +84,7 @@ def _left_of(part: Opaque) -> Opaque | None:
     if part.element is None or not _is_kept(part):
         return part
     left = _rest_of(part.element)
-    return None if left is None else part.copy(element=left)
+    return None if left is None else replace_fields(part, element=left)
 
 
 def _rest_of(element: Element) -> Element | None:
@@ -95,7 +92,7 @@ def _rest_of(element: Element) -> Element | None:
     usual = _USUAL.get("" if is_whole else element.name, {})
     attributes = tuple(pair for pair in element.attributes if not _is_usual(pair[1], usual.get(pair[0], frozenset())))
     children = tuple(left for each in element.children if (left := _rest_of(each)) is not None)
-    return element.copy(attributes=attributes, children=children) if attributes or children else None
+    return replace_fields(element, attributes=attributes, children=children) if attributes or children else None
 
 
 def _is_usual(value: str, usual: frozenset[str] | None) -> bool:
