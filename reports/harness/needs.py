@@ -1,6 +1,7 @@
 """What reports need that may not be here: each gives the reason why not, and nothing where it is here."""
 
 from collections.abc import Callable
+from importlib.util import find_spec
 
 from testbed.corpus import files
 from testbed.engines import gazebo as gz_physics
@@ -17,6 +18,7 @@ def need(is_here: Callable[[], bool], missing: str) -> Callable[[], str]:
 corpus = need(files.CORPUS.is_dir, files.MISSING)
 drake = need(lambda: oracles.available("drake"), "Drake is not here: pip install '.[engines]'")
 mujoco = need(lambda: oracles.available("mujoco"), "MuJoCo is not here: pip install '.[engines]'")
+scipy = need(lambda: find_spec("scipy") is not None, "SciPy, which makes hulls of vertices, is not here")
 libsdformat = need(sdformat12.available, sdformat12.MISSING)
 urdfdom = need(check_urdf.available, check_urdf.MISSING)
 urdfdom_6 = need(check_urdf.available_6, check_urdf.MISSING_6)

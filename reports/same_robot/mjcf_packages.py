@@ -1,7 +1,7 @@
 """Is what twinform makes of published MJCF the robot that MuJoCo reads, and does the file come home?"""
 
 from reports.harness.known import Known
-from reports.harness.needs import drake, mujoco, need
+from reports.harness.needs import drake, mujoco, need, scipy
 from reports.harness.sample import Sample
 from reports.harness.section import UNEXPLAINED, Findings, Section
 from reports.same_robot.mjcf_package_verdicts import Answer, PackageFile, Question, judge
@@ -17,8 +17,8 @@ reads. Asked of each is:
 * **SDF in Drake**, **URDF in Drake**: joints, their types and ranges, the mass, center and inertia of each link, and at
   4 random positions and velocities the poses of all links, the mass matrix and the bias forces, against MuJoCo's own
   model of the MJCF, to 1e-9 (moments 1e-6; with meshes, whose points MuJoCo has in single precision, masses 1e-5).
-  Armature is taken out of MuJoCo's model: the ledger names it. Each tree of bodies is a robot
-  of URDF; of a file, the first eight are asked.
+  Armature is taken out of MuJoCo's model: the ledger names it; a free body stays where the file draws it, without
+  `alignfree`. Each tree of bodies is a robot of URDF; of a file, the first eight are asked.
 * **home from SDF**, **home from URDF**: the MJCF that the SDF or URDF becomes, against the source: each array of
   MuJoCo's model, to 1e-9, and the normal form of the canonical tree. Put aside are the order of elements, the carrier
   of nothing, and a written inertial where the source leaves it to MuJoCo. A world does not come home from URDF, which
@@ -68,6 +68,11 @@ SECTION = Section(
     "mjcf_packages",
     _ABOUT,
     measure,
-    (need(lambda: bool(PACKAGES.is_dir()), f"there are no packages in {PACKAGES.name}: make mjcf"), drake, mujoco),
+    (
+        need(lambda: bool(PACKAGES.is_dir()), f"there are no packages in {PACKAGES.name}: make mjcf"),
+        drake,
+        mujoco,
+        scipy,
+    ),
     KNOWN,
 )

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from testbed.mjcf.canonical_models import canonical, differences, load_canonical
+from twinform.compiler.input.mjcf.references import own_references
 from twinform.compiler.normal_form import NormalForm
 from twinform.schemas import XmlElement
 
@@ -104,5 +105,12 @@ def put_in_order(source: XmlElement, back: XmlElement) -> None:
 
 
 def _key(element: XmlElement) -> tuple[str, ...]:
-    touches = (element.get("contype"), element.get("conaffinity")) != ("0", "0")
-    return str(element.tag), element.get("name") or "", str(touches) if element.tag == "geom" else ""
+    name = element.get("name") or ""
+    if element.tag == "geom":
+        touches = (element.get("contype"), element.get("conaffinity")) != ("0", "0")
+        return "geom", name, str(touches)
+    parent = element.getparent()
+    if parent is not None and parent.tag == "equality" and not name:
+        # Those that joints of SDF stand for come back behind the others.
+        return str(element.tag), *(f"{each.attribute}={each.name}" for each in own_references(element))
+    return str(element.tag), name

@@ -8,6 +8,7 @@ matrix and the bias forces. What only MJCF has and the ledger names, such as the
 import importlib
 import logging
 import math
+import warnings
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -32,6 +33,8 @@ _TYPES = {1: "ball", 2: "prismatic", 3: "revolute"}
 _FLOATS = 1e-5
 _ALMOST_NOTHING = "1e-22"
 """In kg and kg m^2: Drake asks for some mass."""
+_BETWEEN = ("made", "part")
+"""What links have in them that stand for no body."""
 _NOTHING = 1e-11
 """In kg: what weighs less weighs nothing in MJCF."""
 
@@ -81,10 +84,19 @@ def _closes(joint: Joint, model: Model) -> bool:
 def without_rotors(mujoco: Any, path: Path) -> Compiled:
     """MuJoCo's model of a file without what only MJCF has and the mass matrix shows: inertia of rotors and tendons.
 
+    A free body stays where the file draws it: `alignfree` puts its frame into its center of mass in the compiled model,
+    and what the file places in the body is placed from the drawn frame.
+
     Raises:
         ValueError: MuJoCo refuses the file.
     """
-    model = mujoco.MjModel.from_xml_path(str(path))
+    # from_file knows MJCF by the end of its name
+    drawn = mujoco.MjSpec.from_file(str(path)) if path.suffix == ".xml" else mujoco.MjSpec.from_string(path.read_text())
+    drawn.compiler.alignfree = False
+    for joint in drawn.joints:
+        joint.align = 0
+    with warnings.catch_warnings(action="ignore"):  # of settings that it will not have in a later version
+        model = drawn.compile()
     model.dof_M0[:] -= model.dof_armature  # of bodies whose mass matrix is the same everywhere
     for name in ("dof_armature", "tendon_armature"):
         getattr(model, name)[:] = 0.0
@@ -127,10 +139,12 @@ def _of_joints(source: Compiled, trees: Iterable[Tree]) -> Iterator[str]:
 def _bare(text: str, loops: Collection[str] = ()) -> bytes:
     """Return a text without shapes and all else that does not matter, and without the joints that close loops.
 
-    Links that stand between two joints of one body weigh next to nothing there, which a body of a fly is not more than.
+    Links that stand between two joints of one body, or in the chain of joints that a ball becomes, weigh next to
+    nothing there, which a body of a fly is not more than.
     """
     root = etree.fromstring(text.encode())
-    for made in root.iterfind(f".//link/{{{NAMESPACE}}}made/.."):
+    between = [link for name in _BETWEEN for link in root.iterfind(f".//link/{{{NAMESPACE}}}{name}/..")]
+    for made in between:
         for each in made.iter("mass", "ixx", "iyy", "izz"):
             each.text = _ALMOST_NOTHING
             if each.get("value"):  # in URDF
