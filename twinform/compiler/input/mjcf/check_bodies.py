@@ -15,7 +15,6 @@ _MOST_FREEDOMS = 6
 _LEAST = 1e-15
 _ROUNDING = 1e-12
 _LEAST_AXIS = 1e-7
-_WEIGHTLESS_SHAPES = frozenset({"plane", "hfield"})
 
 
 def check_bodies(root: XmlElement, findings: ElementFindings) -> None:
@@ -137,7 +136,7 @@ class _MassCheck:
     def _is_weighty(self, geom: XmlElement) -> bool:
         if not self._groups[0] <= (numbers_of(geom, "group") or (0.0,))[0] <= self._groups[1]:
             return False
-        if geom.get("type") in _WEIGHTLESS_SHAPES:
+        if geom.get("type") == "plane":
             return False
         mass = numbers_of(geom, "mass")
         return (mass or numbers_of(geom, "density") or (1.0,))[0] > 0

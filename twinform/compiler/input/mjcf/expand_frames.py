@@ -13,7 +13,7 @@ from lxml import etree
 from twinform.compiler.input.mjcf.canonical_values import rotation_of
 from twinform.compiler.input.mjcf.compiler_settings import CompilerSettings
 from twinform.compiler.input.mjcf.copy_followers import Followers, TooManyCopiesError
-from twinform.compiler.input.mjcf.element_findings import ElementFindings
+from twinform.compiler.input.mjcf.element_findings import ElementFindings, set_line
 from twinform.compiler.input.mjcf.number_lists import Numbers, number_text, numbers_of
 from twinform.compiler.input.mjcf.quaternions import (
     UNTURNED,
@@ -98,6 +98,7 @@ def _expand_replicate(
     names = names_in(replicate)
     suffixes = [f"{replicate.get('sep', '')}{number:0{len(str(count))}}" for number in range(count)]
     copies: list[XmlElement] = []
+    first = next(iter(_elements(replicate)), replicate)
     pose = FramePose()
     for suffix in suffixes:
         for child in _elements(replicate):
@@ -105,6 +106,7 @@ def _expand_replicate(
             copy.tail = None
             add_to_names(copy, names, "", suffix)
             place_in(copy, pose)
+            set_line(copy, first)  # documents are written in the order of lines, and copies follow each other
             copies.append(copy)
         pose = pose.of(step)
     before = _NamesBefore(replicate)

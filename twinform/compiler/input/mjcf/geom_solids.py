@@ -46,7 +46,8 @@ _FITTED: Mapping[str, Callable[[float, float, float], Shape]] = {
 """What is fitted to a box with three half sides, of which the last one is the longest."""
 _FEWEST = 12
 """The numbers of the four vertices that a mesh needs."""
-_WEIGHTLESS = frozenset({"plane", "hfield"})
+_SIZE_OF_FIELD = 4
+"""A height field has two half sides, and heights above and below its origin."""
 _LEGACY, _EXACT, _CONVEX, _SHELL = "legacy", "exact", "convex", "shell"
 
 
@@ -64,8 +65,10 @@ class GeomSolids:
     def __call__(self, geom: Piece, density: float) -> Solid | None:
         """Return the geom filled with a density in kg/m^3, in its own frame; None where nothing can be computed."""
         shape = lower_shape(geom, self._assets)
-        if geom.peek("type") in _WEIGHTLESS:
+        if geom.peek("type") == "plane":
             return NOTHING
+        if geom.peek("type") == "hfield":
+            return self._of_height_field(geom, density)
         asset = self._assets.find("mesh", geom.peek("mesh"))
         if shape is None:
             found = None if asset is None else self._of_no_shape(geom, asset, density)
@@ -76,6 +79,15 @@ class GeomSolids:
             return self._filled(geom, shape, density)
         measured = None if asset is None else self._of_asset(asset)
         return None if measured is None else placed(_of_density(measured, density), shape.at)
+
+    def _of_height_field(self, geom: Piece, density: float) -> Solid | None:
+        """Return the box that MuJoCo takes for a height field, whatever its elevations, with half of its height."""
+        asset = self._assets.find("hfield", geom.peek("hfield"))
+        numbers = asset.peek_numbers("size") if asset else ()
+        if len(numbers) != _SIZE_OF_FIELD:
+            return NOTHING
+        x, y, top, bottom = numbers
+        return self._filled(geom, PlacedShape(Box.unchecked(size=(2 * x, 2 * y, top / 2 + bottom))), density)
 
     def _of_no_shape(self, geom: Piece, asset: Piece, density: float) -> Solid | None:
         """Return the mass of a geom that has no shape in SDF: a mesh without file, or what is fitted to a mesh."""

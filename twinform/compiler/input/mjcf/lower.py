@@ -132,7 +132,7 @@ class FileLowering:
             if lowering.mocap & {piece.peek("body1"), piece.peek("body2")}:
                 continue
             name = piece.name or unnamed
-            joint = lower_loop(piece, name, links, self.keeper)
+            joint = lower_loop(piece, name, links, parts.joints, self.keeper)
             if joint is not None:
                 made = lowering.names.make(safe_name(name))
                 marks = name_mark(piece.name, made)

@@ -5,7 +5,9 @@ from typing import NamedTuple
 
 from twinform.compiler.input.mjcf.pieces import Piece, placed_at
 from twinform.compiler.input.mjcf.remainders import RemainderKeeper, in_sections
-from twinform.ir import Joint, Mimic, Pose
+from twinform.ir import Joint, JointType, Mimic, Pose
+from twinform.ir.kinematic_tree import JointBetween
+from twinform.ir.motion import spanning_tree
 
 _LINEAR = 2
 """The number of coefficients of a mimic."""
@@ -39,8 +41,13 @@ def mimic_of(piece: Piece, found: JointFollowing, leader: str) -> Mimic:
     return Mimic.unchecked(joint=leader, multiplier=found.multiplier, offset=found.offset or None, source=piece.source)
 
 
-def lower_loop(piece: Piece, name: str, links: Mapping[str, str], keeper: RemainderKeeper) -> Joint | None:
+def lower_loop(
+    piece: Piece, name: str, links: Mapping[str, str], joints: Iterable[Joint], keeper: RemainderKeeper
+) -> Joint | None:
     """Build the joint that closes a loop; None where it is no such equality, or names sites, or is switched off.
+
+    None as well where it would be taken for one of the tree: SDF does not say which of its joints close loops, and a
+    weld would then replace the joint that the body moves by.
 
     `links` has the names of links by those of bodies. A `connect` is a ball at `anchor`, in the frame of the first
     body; a `weld` is fixed where both bodies are drawn, unless it says another pose.
@@ -52,21 +59,22 @@ def lower_loop(piece: Piece, name: str, links: Mapping[str, str], keeper: Remain
         return None
     if piece.tag == "weld" and _places(piece):
         return None
+    kind: JointType = "ball" if piece.tag == "connect" else "fixed"
+    joint = Joint.unchecked(name=name, type=kind, parent=links[first], child=links[second])
+    above = spanning_tree(map(_between, [*joints, joint])).get(links[second])
+    if above is not None and above.joint is joint:
+        return None
     for attribute in ("body1", "body2", "active", "name"):
         piece.take(attribute)
     at = placed_at(piece.numbers("anchor")).translation if piece.tag == "connect" else None
     pose = Pose.unchecked(xyz=at, relative_to=links[first]) if at else None
     element = keeper.rest_element(piece)
     rest = in_sections({"equality": (element,)}) if element.attributes else ()
-    return Joint.unchecked(
-        name=name,
-        type="ball" if piece.tag == "connect" else "fixed",
-        parent=links[first],
-        child=links[second],
-        pose=pose,
-        opaque=rest,
-        source=piece.source,
-    )
+    return joint.copy(pose=pose, opaque=rest, source=piece.source)
+
+
+def _between(joint: Joint) -> JointBetween:
+    return JointBetween(joint.name, joint.type, joint.parent or "", joint.child or "", joint)
 
 
 def _places(weld: Piece) -> bool:
