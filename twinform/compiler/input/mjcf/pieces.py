@@ -136,6 +136,8 @@ class Piece:
 def _placed(element: XmlElement) -> Iterator[tuple[XmlElement, int | None]]:
     """Yield the elements in an element, each with its place among its like, or None where it is the only one."""
     inside = list(children(element))
+    if not inside:  # as in most, and a counter takes longer than the rest
+        return
     alike = Counter(str(child.tag) for child in inside)
     places = Counter[str]()
     for child in inside:

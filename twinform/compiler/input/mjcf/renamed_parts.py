@@ -49,9 +49,16 @@ def renamed_parts(model: Model, links: Sequence[Link], joints: Sequence[Joint], 
         field: tuple(without_annotation(each, NAME, MADE_NAME) for each in getattr(model, field))
         for _, field in _FIELDS
     }
-    changed = {key: new for key, new in names.items() if key[1] != new}
-    model = replace_fields(model, **plain)
-    return renamed(model, changed, Format.SDF) if changed else model
+    # Nothing refers to a joint that has no name in the file, so that nothing has to follow it.
+    unnamed = {
+        ("joint", each.name) for each in model.joints if is_synthesized(each) or find_annotation(each, MADE_NAME)
+    }
+    changed = {key: new for key, new in names.items() if key[1] != new and key not in unnamed}
+    made = replace_fields(model, **plain)
+    made = renamed(made, changed, Format.SDF) if changed else made
+    pairs = ((("joint", old.name), new) for old, new in zip(model.joints, made.joints, strict=True))
+    joints = tuple(new.copy(name=names[key]) if key in unnamed and key in names else new for key, new in pairs)
+    return replace_fields(made, joints=joints)
 
 
 def _written(node: Node) -> str:

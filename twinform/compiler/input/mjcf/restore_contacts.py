@@ -9,6 +9,7 @@ from typing import NamedTuple, cast
 
 from twinform.ir import Collision, Element, Link, Model, Node, Opaque, Surface, World, replace_fields, rewrite
 from twinform.ir.kinematic_tree import KinematicTree
+from twinform.ir.rewrite import ANYTHING
 from twinform.ir.scopes import scoped_models
 from twinform.passes.carriers.annotations import annotation, find_annotation, without_annotation
 from twinform.passes.legalise.to_mjcf.contact_plan import ContactPlan, coefficient, friction_priorities
@@ -86,7 +87,7 @@ def settle_contacts(holder: Model | World) -> Model | World:
         expected = Touch(*bits, priorities[coefficient(collision)])
         return _with_differences(without_annotation(collision, _TOUCH), note, expected)
 
-    return _excluding(rewrite(holder, Link, settled), plan)
+    return _excluding(rewrite(holder, Link, settled, having=ANYTHING), plan)
 
 
 def _with_differences(collision: Collision, note: Element, expected: Touch) -> Collision:
