@@ -13,6 +13,7 @@ from twinform.ir.geometry import Heightmap, Mesh
 from twinform.ir.node import Vector3
 from twinform.passes.framework.assets import AssetError
 from twinform.passes.legalise.to_mjcf.elements import Value, make_element
+from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements
 from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext
 
 _MESHES = frozenset({"obj", "stl", "msh"})
@@ -87,12 +88,23 @@ def height_field(context: MjcfContext, shape: Heightmap, wanted: str = "") -> st
     if key not in context.files:
         file = file_path(context, uri, shape.location)
         name = context.name("hfield", wanted or PurePosixPath(file).stem, shape.location)
-        # Half of the extents, the height above the origin, and how far the ground goes down below it.
-        extent = (size[0] / 2, size[1] / 2, size[2], max(size[2], 1.0) / 100)
+        # Half of the extents, and the height above the origin.
+        above = (size[0] / 2, size[1] / 2, size[2])
+        extent = (*above, _depth(context, name, above))
         attributes: list[tuple[str, Value]] = [("name", name), ("file", file), ("size", extent)]
         context.add("asset", make_element("hfield", attributes, (), shape.source))
         context.files[key] = name
     return context.files[key]
+
+
+def _depth(context: MjcfContext, name: str | None, above: Vector3) -> float:
+    """How far the ground goes down below its origin: as it was read, if the rest of its size is still the same."""
+    assets = [each for _, model in (("", context.holder), *context.models) for each in kept_elements(model)]
+    for field in (child for each in assets if each.name == "asset" for child in each.children):
+        numbers = tuple(map(float, (field.get("size") or "").split()))
+        if field.name == "hfield" and field.get("name") == name and numbers[:-1] == above:
+            return numbers[-1]
+    return max(above[2], 1.0) / 100
 
 
 def vector_in(node: Node, name: str, usual: Vector3) -> Vector3:
