@@ -7,7 +7,6 @@ runs on it; `mjcf:` is an edit of the file of MJCF that it becomes. Each is trie
 import re
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Literal
 
 import pytest
 
@@ -21,6 +20,7 @@ from testbed.edits.plainly import Plainly
 pytestmark = pytest.mark.slow
 
 CASES = Path(__file__).parent / "cases" / "edits"
+_LANGUAGES: dict[str, Language] = {".urdf": "urdf", ".sdf": "sdf", ".mjcf": "mjcf"}
 _WISH = re.compile(r"<!-- (edit|refused|pass|mjcf): (.*?) -->")
 
 
@@ -33,7 +33,7 @@ def _cases() -> Iterator[object]:
 @pytest.mark.parametrize(("path", "kind", "text"), list(_cases()))
 def test_an_edit_wins(path: Path, kind: str, text: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(ROOT)
-    source: Literal["sdf", "urdf"] = "urdf" if path.suffix == ".urdf" else "sdf"
+    source = _LANGUAGES[path.suffix]
     to: Language = "mjcf" if kind == "mjcf" else "sdf" if source == "urdf" else "urdf"
     made = twinform.convert(path, to=to).text.encode()
     before = unedited(made, source)

@@ -285,4 +285,5 @@ def job_named(name: str, edited: Language) -> Job:
     path = next((each / name for each in (OUT, PACKAGES, Path()) if (each / name).is_file()), None)
     if path is None:
         raise LookupError(f"no file {name} in {CORPUS}, {PACKAGES} or {OUT}")
-    return Job(name, path, (), EditedFile(path.read_bytes()).language, edited, 0, 0)
+    paths = (PACKAGES,) if path.is_relative_to(PACKAGES) else ()
+    return Job(name, path, paths, EditedFile(path.read_bytes()).language, edited, 0, 0)

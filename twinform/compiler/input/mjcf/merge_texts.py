@@ -10,7 +10,7 @@ from twinform.compiler.input.mjcf.carried_texts import CarriedText, nodes_of, re
 from twinform.compiler.input.mjcf.joined_joints import join_joints
 from twinform.compiler.input.mjcf.one_model import one_model
 from twinform.compiler.input.mjcf.renamed_parts import renamed_parts
-from twinform.compiler.input.mjcf.restore_contacts import settle_contacts
+from twinform.compiler.input.mjcf.restore_contacts import kept_apart, settle_contacts
 from twinform.compiler.input.mjcf.restore_sensors import (
     restored_settings,
     sensors_back,
@@ -53,9 +53,9 @@ def merge_texts(document: Document, texts: tuple[CarriedText, ...], root: XmlEle
     """The document of a canonical tree with what carriers hold, in the version of SDF that its source had."""
     if not texts:
         return document
-    if not any(each.kind == DOCUMENT for each in texts):
-        return _with_parts(document, texts, root, sink)
     try:
+        if not any(each.kind == DOCUMENT for each in texts):
+            return _with_parts(document, texts, root, sink)
         return _Merged(document, texts, root, sink).document()
     except FrameError as error:  # an edit has left frames without what they were in
         error.report(sink)
@@ -69,14 +69,23 @@ def _with_parts(document: Document, texts: tuple[CarriedText, ...], root: XmlEle
     """
     merging = Merging(Spellings(root))
     partials = {(type(each.node), written_name(each.node)): without_annotation(each.node, WRITTEN) for each in texts}
+    # A fixed joint has no name in the file, and is known by its child.
+    fixed = {each.node.child: each.node for each in texts if isinstance(each.node, Joint) and each.node.type == "fixed"}
 
     def merged(node: AnyPart) -> AnyPart:
         partial = partials.get((type(node), node.name))
+        if isinstance(node, Joint) and node.type == "fixed":
+            partial = fixed.get(node.child)
         if partial is None or not isinstance(partial, type(node)):
             return node
         return merging.merge(node, partial)
 
     def in_model(model: Model) -> Model:
+        told_apart = partials.get((Model, model.name))
+        if isinstance(told_apart, Model) and told_apart.self_collide is False and model.self_collide:
+            model = kept_apart(model, root)
+            if model.self_collide:
+                report_stale(sink, f"links of model {model.name!r} touch in the file", told_apart.source)
         return replace_fields(
             merged(model),
             links=tuple(merged(each) for each in model.links),

@@ -90,6 +90,16 @@ def settle_contacts(holder: Model | World) -> Model | World:
     return _excluding(rewrite(holder, Link, settled, having=ANYTHING), plan)
 
 
+def kept_apart(model: Model, root: XmlElement) -> Model:
+    """A model of MJCF that does not touch itself, if all that its bits let touch is excluded in the file."""
+    apart = model.copy(self_collide=False)
+    plan = ContactPlan(apart, KinematicTree(apart), frozenset(), is_of_mjcf=True)
+    written = {frozenset((each.get("body1"), each.get("body2"))) for each in root.iterfind("contact/exclude")}
+    if not {frozenset[str | None](pair) for pair in plan.excluded} <= written:
+        return model
+    return cast("Model", _excluding(apart, plan))
+
+
 def _with_differences(collision: Collision, note: Element, expected: Touch) -> Collision:
     written = dict(note.attributes)
     differing = [(name, written[name]) for name in _NUMBERS if float(written[name]) != getattr(expected, name)]

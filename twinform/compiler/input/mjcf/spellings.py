@@ -24,6 +24,7 @@ from twinform.ir import (
     Node,
     Opaque,
     Pose,
+    Surface,
     Visual,
 )
 from twinform.ir.defaults import direction, multiplier
@@ -32,7 +33,9 @@ from twinform.ir.transform import Transform, rounded
 from twinform.passes.carriers.absorb import CarrierError, absorb
 from twinform.passes.carriers.annotations import find_annotation, without_annotation
 from twinform.passes.carriers.mjcf_texts import AXES, LOOK_OF, SHAPE_OF, TURN, Tagged, digest_of, look_parts
+from twinform.passes.legalise.to_mjcf.contact_plan import MASKS
 from twinform.passes.legalise.to_mjcf.kept_mjcf import KEPT
+from twinform.passes.legalise.to_mjcf.said_parts import untyped, without_elements
 from twinform.passes.shared.poses import read_vector
 from twinform.schemas import XmlElement
 
@@ -68,6 +71,8 @@ class Spellings:
             made = self._with_look(*_with_shape(node, partial))
         elif isinstance(node, Collision) and isinstance(partial, Collision):
             made = _with_shape(node, partial)
+        elif isinstance(node, Surface) and isinstance(partial, Surface):
+            made = _with_second_coefficient(node, partial)
         elif isinstance(node, Joint) and isinstance(partial, Joint):
             made = _with_turn(_with_type(node, partial), partial), without_annotation(partial, TURN)
         elif isinstance(node, Mimic) and isinstance(partial, Mimic):
@@ -205,3 +210,12 @@ def _is_unturned(pose: Pose) -> bool:
 
 def _is_close(one: float, other: float) -> bool:
     return math.isclose(one, other, rel_tol=1e-9, abs_tol=_CLOSE)
+
+
+def _with_second_coefficient(node: Surface, partial: Surface) -> tuple[Surface, Surface]:
+    """The coefficients of SDF, of which MJCF has the first; and the masks of the file, where it has any."""
+    if any(untyped(node, name) for name in MASKS):
+        partial = without_elements(partial, [f"contact/{name}" for name in MASKS])
+    if node.mu2 == node.mu and partial.mu2 is not None:
+        node = node.copy(mu2=partial.mu2)
+    return node, partial

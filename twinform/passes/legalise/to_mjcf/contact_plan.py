@@ -12,8 +12,8 @@ Of two coefficients of friction the lesser one counts in SDF; in MJCF it is the 
 the higher priority.
 """
 
-from collections import defaultdict
-from collections.abc import Iterable, Iterator, Mapping
+from collections import Counter, defaultdict
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from functools import cached_property
 from itertools import combinations
 from typing import NamedTuple
@@ -43,8 +43,10 @@ class Bits(NamedTuple):
 
 USUAL = Bits(1, 1)
 """What a geom of MJCF has where nothing is written."""
+_NONE = Bits(0, 0)
 _SIGN = 2**31
-_MASKS = ("collide_bitmask", "category_bitmask")
+MASKS = ("collide_bitmask", "category_bitmask")
+"""The masks of SDF, in the contacts of a surface."""
 
 
 class ContactPlan:
@@ -66,20 +68,57 @@ class ContactPlan:
             if link.collisions:
                 self._groups[name.partition(SCOPE)[0] if isinstance(holder, World) else ""].append(name)
         collisions = [each for link in tree.links.values() for each in link.collisions]
-        self._has_masks = any(mask_of(each, name) is not None for each in collisions for name in _MASKS)
+        self._has_masks = any(mask_of(each, name) is not None for each in collisions for name in MASKS)
         # Where an edit gave a geom bits of its own, the others keep what they have of their models.
-        self._has_bits_of_geoms = self._has_masks or (is_of_mjcf and any(kept_bits(each) for each in collisions))
+        self._has_bits_of_geoms = self._has_masks or (is_of_mjcf and any(map(_kept_bits, collisions)))
+        self._released = frozenset[str]()
+        if is_of_mjcf:
+            self._released = frozenset(link for links in self._groups.values() for link in self._told_to_touch(links))
 
     def bits(self, link: str, collision: Collision) -> Bits:
         """The bits of a geom; those of its collision where a collision has any, as SDF defines them."""
-        kept = kept_bits(collision)
+        kept = self.kept_bits(link, collision)
         if kept is not None:
             return kept
         if not self._has_masks:
             return self._bits.get(link, USUAL)
-        mask, category = (mask_of(collision, name) for name in _MASKS)
+        mask, category = (mask_of(collision, name) for name in MASKS)
         affinity = ALL_TOUCH if mask is None else mask
         return Bits(affinity if category is None else category, affinity)
+
+    def kept_bits(self, link: str, collision: Collision) -> Bits | None:
+        """The bits that a collision keeps of its geom of MJCF; None where there are none, or an edit has replaced them.
+
+        Where a file of MJCF was read, the mask had the bits of both numbers. Another mask, or none, was edited; and so
+        was a model that touches itself while these bits keep it from that.
+        """
+        kept = _kept_bits(collision)
+        if kept is None or not self._is_of_mjcf:
+            return kept
+        is_stale = mask_of(collision, MASKS[0]) != (kept.contype | kept.conaffinity) & ALL_TOUCH
+        return None if is_stale or link in self._released else kept
+
+    @property
+    def are_usual(self) -> bool:
+        """Whether all geoms that touch anything have the bits that need not be written."""
+        return all(self._bits_of(link) <= {USUAL, _NONE} for links in self._groups.values() for link in links)
+
+    def touch_by_bits(self, links: Collection[str]) -> bool:
+        """Whether any two of these links touch by their bits, which is what a reader of the file sees."""
+        counts = Counter(bits for link in links for bits in self._bits_of(link))
+        pairs = [*combinations(counts, 2), *((bits, bits) for bits, count in counts.items() if count > 1)]
+        return any(_meet(*pair) for pair in pairs)
+
+    def _told_to_touch(self, links: Collection[str]) -> Collection[str]:
+        """The links of a model that touches itself, if their bits do not."""
+        is_told = len(links) > 1 and all(self._flagged[link] for link in links)
+        return links if is_told and not self.touch_by_bits(links) else ()
+
+    @property
+    def is_told_apart(self) -> bool:
+        """Whether links of a model touch by their bits, and only exclusions and the model keep them from it."""
+        apart = [links for links in self._groups.values() if not any(self._flagged[link] for link in links)]
+        return any(self.touch_by_bits(links) for links in apart)
 
     @cached_property
     def excluded(self) -> tuple[Pair, ...]:
@@ -123,7 +162,7 @@ class ContactPlan:
     def _touch(self, one: str, other: str) -> bool:
         """Whether any geoms of two links touch by their bits."""
         mine, others = self._bits_of(one), self._bits_of(other)
-        return any(a.contype & b.conaffinity or b.contype & a.conaffinity for a in mine for b in others)
+        return any(_meet(a, b) for a in mine for b in others)
 
     def _bits_of(self, link: str) -> frozenset[Bits]:
         return frozenset(self.bits(link, each) for each in self._tree.links[link].collisions)
@@ -161,6 +200,10 @@ class ContactPlan:
         return top
 
 
+def _meet(one: Bits, other: Bits) -> bool:
+    return bool(one.contype & other.conaffinity or other.contype & one.conaffinity)
+
+
 def mask_of(collision: Collision, name: str) -> int | None:
     """The number of a bit mask in the surface of a collision, or None."""
     element = untyped(collision.surface, name) if collision.surface is not None else None
@@ -169,7 +212,7 @@ def mask_of(collision: Collision, name: str) -> int | None:
     return (whole_number(text, ALL_TOUCH) + _SIGN) % (2 * _SIGN) - _SIGN if text else None
 
 
-def kept_bits(collision: Collision) -> Bits | None:
+def _kept_bits(collision: Collision) -> Bits | None:
     """The bits that a collision keeps of the geom of MJCF that it was read from."""
     kept = {name: value for each in kept_elements(collision) if each.name == "geom" for name, value in each.attributes}
     if not kept.keys() & set(Bits._fields):

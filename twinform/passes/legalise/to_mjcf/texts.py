@@ -8,14 +8,18 @@ of the source, and what stands beside the model or world that is written.
 from functools import partial
 
 from twinform.diagnostics import rules
-from twinform.ir import Frame, Joint, Link, Model, Node, Opaque, World
+from twinform.ir import Collision, Frame, Joint, Link, Model, Node, Opaque, World
 from twinform.ir.frames import MODEL
 from twinform.ir.rewrite import census_of
+from twinform.ir.scopes import SCOPE
+from twinform.passes.carriers.annotations import is_synthesized
 from twinform.passes.carriers.carriers import NAMESPACE, bits_of_ours, is_carrier, is_ours, without_parts
 from twinform.passes.carriers.mjcf_texts import DOCUMENT, bare_xml, text_element, text_name, xml_data
 from twinform.passes.carriers.partial_nodes import REST, is_bare, remainder
+from twinform.passes.legalise.to_mjcf.contact_plan import MASKS
 from twinform.passes.legalise.to_mjcf.inertials import weight_of
 from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements
+from twinform.passes.legalise.to_mjcf.said_parts import without_elements
 from twinform.passes.legalise.to_mjcf.spelling_notes import SpellingNotes
 from twinform.passes.legalise.to_mjcf.what_is_said import WhatIsSaid
 from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext
@@ -27,6 +31,7 @@ _OURS = f"{{{NAMESPACE}}}"
 _MARK = f"{_OURS}{REST}"
 _GROUPS = frozenset({"axis", "axis2", "limit", "dynamics", "surface"})
 """Elements that only group others: what is in them counts, and not they themselves."""
+_MASKS = frozenset(f"contact/{each}" for each in MASKS)
 _ALWAYS_THE_FIRST = frozenset(each for each in versions_of("sdf") if parse_version(each) < (1, 7))
 """The versions of SDF in which the canonical link cannot be named."""
 
@@ -65,31 +70,31 @@ class _Texts:
             self._add("frame", each.name, self._in_its_link(each))
 
     def add_additions(self) -> None:
-        """Add texts for what was added to a document of MJCF while it was SDF: plugins and the like."""
-        # What touches what, geoms say; and what hangs between the joints of a body, is made again.
-        nothing = {"visuals": (), "collisions": (), "sensors": (), "lights": (), "self_collide": None}
+        """Add texts for what was added to a document of MJCF while it was SDF or URDF: plugins, springs of contacts."""
         model, hidden = self.file.flat, self.file.hidden
+        are_bits_usual = self.context.contacts.are_usual  # a file with no others has no masks
         links = [
-            each.copy(
-                **nothing,
-                inertial=None if weight_of(each).is_nothing else each.inertial,
-                kinematic=None if _is_mocap(each) else each.kinematic,
-                gravity=None if each.gravity is False else each.gravity,
-            )
-            for each in model.links
-            if each.name not in hidden
+            _as_mjcf_has_link(each, has_masks=not are_bits_usual) for each in model.links if each.name not in hidden
         ]
         joints = [each.copy(child=None) if each.child in hidden else each for each in model.joints]
         joints = [_as_mjcf_has_it(each) for each in joints if each.name not in self.file.closing]
-        moving = (each for each in joints if each.type != "fixed")
-        model = model.copy(self_collide=None, static=None)
-        for kind, parts in (("model", (model,)), ("link", links), ("joint", moving)):
+        named = (each for each in joints if each.type != "fixed" or not self._is_named_by_file(each))
+        is_told_apart = isinstance(self.context.holder, Model) and self.context.contacts.is_told_apart
+        model = model.copy(self_collide=False if is_told_apart else None, static=None)
+        for kind, parts in (("model", (model,)), ("link", links), ("joint", named)):
             for each in parts:
                 self.file.part = each
                 left = remainder(without_parts(each, _is_of_mjcf), self.said, lambda _: ())
                 if left is not None and not is_bare(left):
                     name = next(iter(self.file.other_names(each)), each.name)
-                    self._add_text(kind, name, left.copy(name=name), each)
+                    # Of a fixed joint the file has no name that an edit could have changed.
+                    own = _own_name(each) if isinstance(each, Joint) and each.type == "fixed" else name
+                    self._add_text(kind, name, left.copy(name=own), each)
+
+    def _is_named_by_file(self, joint: Joint) -> bool:
+        """Whether a fixed joint, which has no name in MJCF, is called as it is when the file is read."""
+        body = self.context.written_bodies.get(joint.child or "", joint.child)
+        return is_synthesized(joint) or _own_name(joint) == f"{body}_fixed_joint"
 
     def _add(self, kind: str, name: str, node: Node) -> None:
         """Add the text of a node, unless MJCF says all of it, and enter what it holds into the ledger."""
@@ -139,6 +144,34 @@ class _Texts:
             weight = sum(1 + len(each.attrib) for each in child.iter())
             message = f"<{tag}> of {what} has no equivalent in MJCF"
             self.context.account(rules.NOT_IN_MJCF, message, node.location.at(tag), weight)
+
+
+def _own_name(node: Joint) -> str:
+    """The name of a joint in its model."""
+    return node.name.rpartition(SCOPE)[2]
+
+
+def _as_mjcf_has_link(link: Link, *, has_masks: bool) -> Link:
+    """A link without what geoms and bodies say of it, and without sensors and looks, which are read of the file."""
+    return link.copy(
+        visuals=(),
+        collisions=tuple(_as_mjcf_has_collision(each, has_masks=has_masks) for each in link.collisions),
+        sensors=(),
+        lights=(),
+        self_collide=None,
+        inertial=None if weight_of(link).is_nothing else link.inertial,
+        kinematic=None if _is_mocap(link) else link.kinematic,
+        gravity=None if link.gravity is False else link.gravity,
+    )
+
+
+def _as_mjcf_has_collision(collision: Collision, *, has_masks: bool) -> Collision:
+    """A collision with one coefficient of friction, and without masks if the bits of its geom have them."""
+    surface = collision.surface
+    if surface is None:
+        return collision
+    surface = without_elements(surface, _MASKS) if has_masks else surface
+    return collision.copy(surface=surface.copy(mu2=None) if surface.mu2 == surface.mu else surface)
 
 
 def _as_mjcf_has_it(joint: Joint) -> Joint:
