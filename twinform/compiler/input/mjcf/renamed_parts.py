@@ -54,11 +54,11 @@ def renamed_parts(model: Model, links: Sequence[Link], joints: Sequence[Joint], 
         ("joint", each.name) for each in model.joints if is_synthesized(each) or find_annotation(each, MADE_NAME)
     }
     changed = {key: new for key, new in names.items() if key[1] != new and key not in unnamed}
-    made = replace_fields(model, **plain)
-    made = renamed(made, changed, Format.SDF) if changed else made
-    pairs = ((("joint", old.name), new) for old, new in zip(model.joints, made.joints, strict=True))
+    bare = replace_fields(model, **plain)
+    whole = renamed(bare, changed, Format.SDF) if changed else bare
+    pairs = ((("joint", old.name), new) for old, new in zip(model.joints, whole.joints, strict=True))
     joints = tuple(new.copy(name=names[key]) if key in unnamed and key in names else new for key, new in pairs)
-    return replace_fields(made, joints=joints)
+    return replace_fields(whole, joints=joints)
 
 
 def _written(node: Node) -> str:
