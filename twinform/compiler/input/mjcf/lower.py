@@ -40,9 +40,16 @@ _MODEL = "model"
 """The name of a model in a file that has none."""
 
 
-def lower(root: XmlElement, context: Context, load_options: LoadOptions, file: XmlElement) -> Document:
-    """Build the document of a canonical tree, which was made of the tree of a file."""
-    return FileLowering(Piece(root, context.file), context, load_options, file).document()
+def lower(
+    root: XmlElement, context: Context, load_options: LoadOptions, file: XmlElement, *, in_world: bool = True
+) -> Document:
+    """Build the document of a canonical tree, which was made of the tree of a file.
+
+    Without `in_world`, several trees of bodies are models in no world.
+    """
+    lowering = FileLowering(Piece(root, context.file), context, load_options, file)
+    lowering.in_world = in_world
+    return lowering.document()
 
 
 class FileLowering:
@@ -50,6 +57,7 @@ class FileLowering:
 
     def __init__(self, root: Piece, context: Context, load_options: LoadOptions, file: XmlElement) -> None:
         self.root = root
+        self.in_world = True
         self.sections = Sections(root)
         self.keeper = RemainderKeeper(context.sink, file)
         self.trees = [each for each in self.sections.inside(WORLDBODY) if each.tag == "body"]
@@ -75,7 +83,8 @@ class FileLowering:
     @property
     def is_world(self) -> bool:
         """Whether the file is a world and not a model."""
-        return len(self.trees) != 1 or any(each.tag == "geom" for each in self.sections.inside(WORLDBODY))
+        least = 1 if self.in_world else len(self.trees)
+        return len(self.trees) != least or any(each.tag == "geom" for each in self.sections.inside(WORLDBODY))
 
     def document(self) -> Document:
         """Build the document."""
@@ -118,7 +127,7 @@ class FileLowering:
             source=tree.source,
         )
         left = self._left_of(number)
-        if not self.is_world:
+        if not self.is_world and number == 0:
             for tag, elements in self._left(self._scene()).items():
                 left.setdefault(tag, []).extend(elements)
         return with_rest(model, in_sections(left))
@@ -162,7 +171,7 @@ class FileLowering:
 
     def _left_of(self, number: int) -> dict[str, list[Element]]:
         """Return what no node says of the sections and is about one tree alone."""
-        left = {ROOT: [_MARK]}
+        left = {} if number and not self.is_world else {ROOT: [_MARK]}
         for tag in self.sections.tags:
             if tag in {WORLDBODY, "asset", "compiler", "option", "default"}:
                 continue

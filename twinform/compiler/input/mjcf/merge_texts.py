@@ -68,7 +68,9 @@ def _with_parts(document: Document, texts: tuple[CarriedText, ...], root: XmlEle
     They are those of a file that was attached, or of what somebody has added to a file of SDF that was made of MJCF.
     """
     merging = Merging(Spellings(root))
-    partials = {(type(each.node), written_name(each.node)): without_annotation(each.node, WRITTEN) for each in texts}
+    partials = {
+        (type(each.node), written_name(each.node)): without_annotation(each.node, WRITTEN, SEVERAL) for each in texts
+    }
     # A fixed joint has no name in the file, and is known by its child.
     fixed = {each.node.child: each.node for each in texts if isinstance(each.node, Joint) and each.node.type == "fixed"}
 
@@ -89,7 +91,7 @@ def _with_parts(document: Document, texts: tuple[CarriedText, ...], root: XmlEle
         return replace_fields(
             merged(model),
             links=tuple(merged(each) for each in model.links),
-            joints=tuple(merged(each) for each in model.joints),
+            joints=(*(merged(each) for each in model.joints), *_added_holds(model, fixed.values())),
             frames=tuple(merged(each) for each in model.frames),
         )
 
@@ -99,6 +101,13 @@ def _with_parts(document: Document, texts: tuple[CarriedText, ...], root: XmlEle
             sink, f"a carrier holds a rest of {type(stale).__name__.lower()} that belongs to nothing", stale.source
         )
     return document
+
+
+def _added_holds(model: Model, fixed: Iterable[Joint]) -> Iterable[Joint]:
+    """Yield the joints by which somebody has fixed links of a static model to the world, which need none in MJCF."""
+    held = {each.child for each in model.joints}
+    loose = {each.name for each in model.links if each.name not in held} if model.static else set[str]()
+    return (each for each in fixed if not is_rest(each) and each.child in loose)
 
 
 def _is_free(root: XmlElement) -> bool:

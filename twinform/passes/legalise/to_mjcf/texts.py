@@ -12,9 +12,9 @@ from twinform.ir import Collision, Frame, Joint, Link, Model, Node, Opaque, Worl
 from twinform.ir.frames import MODEL
 from twinform.ir.rewrite import census_of
 from twinform.ir.scopes import SCOPE
-from twinform.passes.carriers.annotations import is_synthesized
+from twinform.passes.carriers.annotations import is_synthesized, with_annotation
 from twinform.passes.carriers.carriers import NAMESPACE, bits_of_ours, is_carrier, is_ours, without_parts
-from twinform.passes.carriers.mjcf_texts import DOCUMENT, bare_xml, text_element, text_name, xml_data
+from twinform.passes.carriers.mjcf_texts import DOCUMENT, SEVERAL, bare_xml, text_element, text_name, xml_data
 from twinform.passes.carriers.partial_nodes import REST, is_bare, remainder
 from twinform.passes.legalise.to_mjcf.contact_plan import MASKS
 from twinform.passes.legalise.to_mjcf.inertials import weight_of
@@ -81,6 +81,10 @@ class _Texts:
         named = (each for each in joints if each.type != "fixed" or not self._is_named_by_file(each))
         is_told_apart = isinstance(self.context.holder, Model) and self.context.contacts.is_told_apart
         model = model.copy(self_collide=False if is_told_apart else None, static=None)
+        if self._is_model_of_several_trees:
+            marked = Model.unchecked(name=model.name, self_collide=model.self_collide)
+            self._add_text("model", model.name, with_annotation(marked, SEVERAL), model)
+            model = model.copy(self_collide=None)
         for kind, parts in (("model", (model,)), ("link", links), ("joint", named)):
             for each in parts:
                 self.file.part = each
@@ -90,6 +94,12 @@ class _Texts:
                     # Of a fixed joint the file has no name that an edit could have changed.
                     own = _own_name(each) if isinstance(each, Joint) and each.type == "fixed" else name
                     self._add_text(kind, name, left.copy(name=own), each)
+
+    @property
+    def _is_model_of_several_trees(self) -> bool:
+        """Whether bodies at the top, of which a file of MJCF makes a model each, are links of one model."""
+        trees = [each for each in self.context.sections.get("worldbody", ()) if each.name == "body"]
+        return isinstance(self.context.holder, Model) and len(trees) > 1
 
     def _is_named_by_file(self, joint: Joint) -> bool:
         """Whether a fixed joint, which has no name in MJCF, is called as it is when the file is read."""
