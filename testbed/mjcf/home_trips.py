@@ -29,6 +29,8 @@ _OF_MASS = frozenset({
 """Arrays that follow from the masses of bodies."""
 _SIZES = {"sphere": 1, "cylinder": 2, "capsule": 2}
 """How many numbers the size of a shape has, where it has not three."""
+_OF_PARTS = frozenset({"equality", "actuator", "contact", "sensor"})
+"""Sections whose elements are known by what they refer to. What a joint or body of SDF says comes before the others."""
 _CHANGING = frozenset({"settotalmass", "boundmass", "boundinertia", "balanceinertia"})
 """Settings of the compiler that change written masses."""
 _OF_MASSES = _CHANGING | {"inertiafromgeom", "inertiagrouprange"}
@@ -84,6 +86,8 @@ def _spell_alike(tree: XmlElement) -> None:
         if each.tag == "compiler":
             for name in _OF_MASSES.intersection(each.keys()):
                 del each.attrib[name]
+        elif each.tag == "joint" and each.get("type") == "ball":
+            each.attrib.pop("axis", None)  # of a class, for joints of other types
         elif each.tag == "light" and each.attrib.pop("directional", "false") == "true":
             each.set("type", "directional")
         elif each.tag in {"geom", "site"} and (size := each.get("size")) is not None:
@@ -110,7 +114,6 @@ def _key(element: XmlElement) -> tuple[str, ...]:
         touches = (element.get("contype"), element.get("conaffinity")) != ("0", "0")
         return "geom", name, str(touches)
     parent = element.getparent()
-    if parent is not None and parent.tag == "equality" and not name:
-        # Those that joints of SDF stand for come back behind the others.
-        return str(element.tag), *(f"{each.attribute}={each.name}" for each in own_references(element))
+    if parent is not None and parent.tag in _OF_PARTS and not name:
+        return str(element.tag), *sorted(f"{each.attribute}={each.name}" for each in own_references(element))
     return str(element.tag), name
