@@ -91,7 +91,7 @@ class GeomSolids:
 
     def _of_no_shape(self, geom: Piece, asset: Piece, density: float) -> Solid | None:
         """Return the mass of a geom that has no shape in SDF: a mesh without file, or what is fitted to a mesh."""
-        if geom.peek("type") == "mesh":
+        if geom.peek("type") in {"mesh", "sdf"}:  # a plugin computes only what has no vertices
             measured = self._of_asset(asset)
             return None if measured is None else _of_density(measured, density)
         fitted = self._fitted(geom, asset)
