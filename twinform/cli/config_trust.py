@@ -23,6 +23,7 @@ HELD: Mapping[str, Hold] = {
     "baseline": "inside its folder",
     "carriers": "nothing to hold",
     "check-passes": "known passes",
+    "default-classes": "nothing to hold",
     "deny": "nothing to hold",
     "env": "only if trusted",  # any variable may be a secret
     "exclude": "nothing to hold",  # it hides files of its own folder, which --no-config shows
