@@ -41,7 +41,7 @@ _SCHEME = lazy_pattern(r"\b[a-z]+://")
 _IMPLIED_BY = {"frame": "fixed"}
 # Booleans that the other format writes as their opposites.
 _OPPOSITES = {"turnGravityOff": {"0.0": "1.0", "1.0": "0.0"}}
-_SYNONYMS = {"revolute": "continuous", "continuous": "revolute", "ball": "spherical"}
+_SYNONYMS = {"revolute": "continuous", "continuous": "revolute", "ball": "spherical", "hfield": "heightmap"}
 """Words for which the other format may have another one: a continuous joint may be a revolute one without limits."""
 _TRUTHS = {"true": "1.0", "yes": "1.0", "false": "0.0", "no": "0.0"}
 _Place = tuple[int, str]
@@ -175,7 +175,7 @@ def _parts(root: XmlElement, fates: dict[_Place, Fate]) -> Iterator[_Piece]:
         for name, value in element.items():
             if str(name).startswith(_OURS):
                 continue
-            word = name_in_sdf(element, str(name)) if of_mjcf else _local(str(name))
+            word = name_in_sdf(element, _local(str(name))) if of_mjcf else _local(str(name))
             own = _fate_at(f"{path}/@{word}", lines, fates)
             yield _Piece(element, str(name), frozenset(_words(str(value))), fate or own, of_mjcf)
 

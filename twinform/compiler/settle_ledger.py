@@ -61,7 +61,7 @@ def _elements_by_place(root: XmlElement, lines: Collection[int]) -> dict[tuple[i
         line = element.sourceline or 0
         if line in lines:
             found[line, path].append(element)
-        stack += [(child, f"{path}/{child.tag}") for child in element if isinstance(child.tag, str)]
+        stack += [(child, f"{path}/{bare_path(child.tag)}") for child in element if isinstance(child.tag, str)]
     return found
 
 
@@ -76,7 +76,7 @@ def _parts_of(place: _Place, elements: dict[tuple[int, str], list[XmlElement]]) 
     found = elements.get((line, path), ())
     if attribute:
         names = ((each, str(name)) for each in found for name in each.keys())  # noqa: SIM118 - see `_own_parts`
-        yield from ((each, name) for each, name in names if name_in_sdf(each, name) == attribute)
+        yield from ((each, name) for each, name in names if bare_path(name_in_sdf(each, name)) == attribute)
         return
     for each in found:
         yield from _own_parts(each)

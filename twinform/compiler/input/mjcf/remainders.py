@@ -12,9 +12,12 @@ from dataclasses import replace
 from typing import TypeVar
 
 from twinform.compiler.input.mjcf.pieces import Piece
-from twinform.diagnostics import NOWHERE, DiagnosticSink, Fate, Location, Rule, rules
+from twinform.diagnostics import NOWHERE, DiagnosticSink, Fate, LedgerEntry, Location, Rule, rules
 from twinform.ir import Document, Element, Node, Opaque
+from twinform.ir.rewrite import walk
+from twinform.passes.carriers.annotations import find_annotation
 from twinform.passes.carriers.carriers import NAMESPACE, without_ours
+from twinform.passes.legalise.changed_names import NAME
 from twinform.schemas import XmlElement
 
 MJCF = "mjcf"
@@ -59,6 +62,7 @@ _REASONS: Mapping[str, str] = {
     "visual": _SHOWN,
 }  # fmt: skip
 """Why SDF does not say an attribute, or an element of a section."""
+_IS_KEPT = "is kept as it is"
 _OTHER_REASON = "only MJCF has it"
 
 
@@ -88,7 +92,7 @@ class RemainderKeeper:
         where = piece.location if left else NOWHERE
         for name, _ in left:
             piece.kept.add(name)
-            message = f"{name} of <{piece.tag}>{_called(piece)} is kept as it is: {reason(name, piece.tag)}"
+            message = f"{name} of <{piece.tag}>{_called(piece)} {_IS_KEPT}: {reason(name, piece.tag)}"
             self._carry(message, where.at(f"@{name}"), int(name in self._attributes_of(piece)))
         inside = tuple([self.whole(each) for each in piece.inside if not each.is_settled]) if with_inside else ()
         return Element.unchecked(name=piece.tag, attributes=left, children=inside, source=piece.source)
@@ -101,7 +105,7 @@ class RemainderKeeper:
             each.kept.update(each.attributes)
             weight += 1 + len(each.kept & self._attributes_of(each))
         element = piece.whole()
-        message = f"<{piece.tag}>{_called(piece)} is kept as it is: {why or reason(piece.tag, section)}"
+        message = f"<{piece.tag}>{_called(piece)} {_IS_KEPT}: {why or reason(piece.tag, section)}"
         self._carry(message, piece.location, weight)
         return element.copy(source=piece.source)
 
@@ -159,6 +163,8 @@ def _join(sections: Sequence[Element]) -> Element:
 
 def reason(*words: str) -> str:
     """Return why SDF does not say a part of MJCF: by its own name, or by that of what it is in."""
+    if any(word.startswith("{") for word in words):
+        return "another program has put it there"
     return next((_REASONS[word] for word in words if word in _REASONS), _OTHER_REASON)
 
 
@@ -175,5 +181,19 @@ def without_remainders(document: Document, sink: DiagnosticSink) -> Document:
     """Return the document without remainders and annotations, which the ledger calls dropped; others unchanged."""
     if document.source is None or document.source.step != "mujoco":
         return document
-    sink.entries[:] = [replace(each, fate=Fate.DROPPED) if each.fate is Fate.CARRIED else each for each in sink.entries]
+    sink.entries[:] = [_dropped(each) if each.fate is Fate.CARRIED else each for each in sink.entries]
+    _account_names(document, sink)
     return without_ours(document).copy(namespaces=())
+
+
+def _dropped(entry: LedgerEntry) -> LedgerEntry:
+    return replace(entry, fate=Fate.DROPPED, message=entry.message.replace(_IS_KEPT, "is left out"))
+
+
+def _account_names(document: Document, sink: DiagnosticSink) -> None:
+    """Enter the names that SDF writes otherwise, such as `left::hip`; a shape that is seen and touched has one."""
+    found = ((each.location, find_annotation(each, NAME)) for each in walk(document))
+    for where, mark in {where: mark for where, mark in found if mark is not None}.items():
+        was = mark.text or mark.get("was")
+        message = f"the name {was!r} is not kept; the part is called {mark.get('instead_of')!r}"
+        sink.account(Fate.DROPPED, rules.RENAMED, message, where.at("@name"))

@@ -67,7 +67,8 @@ def _finish_model(model: Model, document: Document, rest: "_RemainderCarrier") -
     has_world = any(link.name == WORLD for link in model.links)  # which SDF before 1.7 did not forbid
     if not has_world and any(joint.parent == WORLD for joint in model.joints):
         model = model.copy(links=(Link.unchecked(name=WORLD), *model.links))
-    if document.version is not None:
+    is_of_mjcf = document.source is not None and document.source.step == "mujoco"
+    if document.version is not None and not is_of_mjcf:
         message = f"the file is SDF {document.version}"
         keeper.account(rules.SDF_ONLY, message, document.location.at("@version"), 1)
     if keeper.back or not keeper.carriers:
