@@ -12,6 +12,7 @@ from twinform.ir import Axis, Dynamics, Joint, JointType, Limit, Mimic, Opaque, 
 from twinform.ir.defaults import AXIS
 from twinform.ir.document import Format
 from twinform.ir.transform import rounded
+from twinform.schemas import format_value
 
 FREE = "free"
 TYPES: Mapping[str, JointType] = {"hinge": "revolute", "slide": "prismatic", "ball": "ball"}
@@ -46,12 +47,16 @@ def lower_joint(
 
 
 def _rest(piece: Piece, axis: Axis | None, keeper: RemainderKeeper) -> tuple[Opaque, ...]:
-    """Return what is left of a joint, and that it has no limit of force itself where that of its actuators is said."""
+    """Return what is left of a joint, and that it has no limit of force itself where that of its actuators is said.
+
+    The forces of these stand beside that, so that an effort which was edited is told from them.
+    """
     element = keeper.rest_element(piece)
-    has_effort = axis is not None and axis.limit is not None and axis.limit.effort is not None
-    if has_effort and not is_limited(piece, "actuatorfrclimited", "actuatorfrcrange"):
-        others = tuple(pair for pair in element.attributes if pair[0] != "actuatorfrclimited")
-        element = element.copy(attributes=(*others, ("actuatorfrclimited", "false")))
+    effort = axis.limit.effort if axis is not None and axis.limit is not None else None
+    if effort is not None and not is_limited(piece, "actuatorfrclimited", "actuatorfrcrange"):
+        force = {"actuatorfrclimited": "false", "actuatorfrcrange": f"{format_value(-effort)} {format_value(effort)}"}
+        others = tuple(pair for pair in element.attributes if pair[0] not in force)
+        element = element.copy(attributes=(*others, *force.items()))
     return (holder(element),) if element.attributes else ()
 
 

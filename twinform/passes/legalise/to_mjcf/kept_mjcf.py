@@ -4,7 +4,8 @@ A joint that was read with an armature holds `<tf:mjcf><joint armature="0.1"/></
 element lacks are added, and children go behind its own; what the node says itself wins.
 
 In SDF a joint is drawn at zero. Where it keeps a `ref`, its range and the rest position of its spring are counted from
-there, and get it added again. A limit of force that was none of the joint, but of its actuators, is not written.
+there, and get it added again. A limit of force that was none of the joint, but of its actuators, is written once it
+has been edited.
 """
 
 from collections.abc import Sequence
@@ -51,16 +52,21 @@ def with_kept_joint(element: Element, joint: Joint) -> Element:
     kept = next((each for each in kept_elements(joint) if each.name == "joint"), None)
     if kept is None:
         return element
-    if kept.get(_FORCE[0]) == "false" and kept.get(_FORCE[1]) is None:
-        own = tuple(pair for pair in element.attributes if pair[0] not in _FORCE)
-        element = element.copy(attributes=own)
+    is_of_actuators = kept.get(_FORCE[0]) == "false"
+    said = kept.get(_FORCE[1]) or element.get(_FORCE[1])
+    if is_of_actuators and said and _is_greatest(said, element.get(_FORCE[1])):  # else it was edited
+        element = _without_force(element)
     written = tuple((name, _with_rest(name, value, kept)) for name, value in element.attributes)
     if (force := kept.get(_FORCE[1])) and _is_greatest(force, element.get(_FORCE[1])):
         written = tuple((name, force if name == _FORCE[1] else value) for name, value in written)
     made = with_kept(element.copy(attributes=written), joint)
-    if made.get(_FORCE[1]) is None:  # where nothing is limited, it need not be said
-        made = made.copy(attributes=tuple(pair for pair in made.attributes if pair != (_FORCE[0], "false")))
+    if made.get(_FORCE[1]) is None or (is_of_actuators and element.get(_FORCE[1]) is None):
+        made = _without_force(made)  # where nothing is limited, it need not be said
     return _counted_from(made)
+
+
+def _without_force(element: Element) -> Element:
+    return element.copy(attributes=tuple(pair for pair in element.attributes if pair[0] not in _FORCE))
 
 
 def with_kept_equality(element: Element, joint: Joint) -> Element:
