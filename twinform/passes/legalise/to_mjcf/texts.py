@@ -81,15 +81,15 @@ class _Texts:
         named = (each for each in joints if each.type != "fixed" or not self._is_named_by_file(each))
         is_told_apart = isinstance(self.context.holder, Model) and self.context.contacts.is_told_apart
         model = model.copy(self_collide=False if is_told_apart else None, static=None)
-        if self._is_model_of_several_trees:
-            marked = Model.unchecked(name=model.name, self_collide=model.self_collide)
-            self._add_text("model", model.name, with_annotation(marked, SEVERAL), model)
-            model = model.copy(self_collide=None)
         for kind, parts in (("model", (model,)), ("link", links), ("joint", named)):
             for each in parts:
                 self.file.part = each
                 left = remainder(without_parts(each, _is_of_mjcf), self.said, lambda _: ())
-                if left is not None and not is_bare(left):
+                if left is not None and is_bare(left):
+                    left = None
+                if each is model and self._is_model_of_several_trees:
+                    left = with_annotation(left or Model.unchecked(name=model.name), SEVERAL)
+                if left is not None:
                     name = next(iter(self.file.other_names(each)), each.name)
                     # Of a fixed joint the file has no name that an edit could have changed.
                     own = _own_name(each) if isinstance(each, Joint) and each.type == "fixed" else name
