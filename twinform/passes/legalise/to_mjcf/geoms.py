@@ -31,7 +31,7 @@ from twinform.passes.legalise.to_mjcf.assets import height_field, mesh_asset, ve
 from twinform.passes.legalise.to_mjcf.contacts import touch_of
 from twinform.passes.legalise.to_mjcf.elements import ENDLESS, GRID, Attributes, Value, make_element, placement
 from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements, with_kept
-from twinform.passes.legalise.to_mjcf.materials import look_of
+from twinform.passes.legalise.to_mjcf.materials import look_of, with_known_material
 from twinform.passes.legalise.to_mjcf.said_parts import without_elements
 from twinform.passes.legalise.to_mjcf.writing_context import Body, MjcfContext
 from twinform.passes.mesh_jobs.mesh_files import NoMeshError
@@ -118,15 +118,7 @@ def _geom(context: MjcfContext, body: Body, part: AnyPart, shape: Solid, more: A
         context.note_made_name("geom", part, name)
     at = context.resolve(part.pose, body).compose(shape.at)
     attributes = [("name", name), *shape.attributes, *placement(at), *more]
-    return _with_known_material(context, with_kept(make_element("geom", attributes, (), part.source), part))
-
-
-def _with_known_material(context: MjcfContext, geom: Element) -> Element:
-    """The geom without the name of a material that has gone with a visual, or with another model."""
-    name = geom.get("material")
-    if name is None or name in context.materials or name in context.names.get("material", ()):
-        return geom
-    return geom.copy(attributes=tuple(pair for pair in geom.attributes if pair[0] != "material"))
+    return with_known_material(context, with_kept(make_element("geom", attributes, (), part.source), part))
 
 
 def _shape_of(context: MjcfContext, body: Body, part: AnyPart) -> Solid | None:

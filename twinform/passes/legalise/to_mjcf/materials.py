@@ -3,7 +3,7 @@
 from pathlib import PurePosixPath
 
 from twinform.diagnostics import Location, rules
-from twinform.ir import Collision, Visual
+from twinform.ir import Collision, Element, Visual
 from twinform.passes.legalise.to_mjcf.assets import file_path
 from twinform.passes.legalise.to_mjcf.elements import Value, attribute_text, make_element
 from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements
@@ -12,6 +12,14 @@ from twinform.passes.legalise.to_mjcf.writing_context import Body, MjcfContext
 
 _IMAGES = frozenset({".png", ".ktx"})
 """The images that MuJoCo reads."""
+
+
+def with_known_material(context: MjcfContext, element: Element) -> Element:
+    """A geom or site without the name of a material that has gone with a visual, or with another model."""
+    name = element.get("material")
+    if name is None or name in context.materials or name in context.names.get("material", ()):
+        return element
+    return element.copy(attributes=tuple(pair for pair in element.attributes if pair[0] != "material"))
 
 
 def look_of(context: MjcfContext, body: Body, visual: Visual, twin: Collision | None = None) -> list[tuple[str, Value]]:

@@ -6,6 +6,7 @@ from twinform.ir.transform import Transform
 from twinform.passes.legalise.changed_names import source_name
 from twinform.passes.legalise.to_mjcf.elements import Value, make_element, placement
 from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements, with_kept
+from twinform.passes.legalise.to_mjcf.materials import with_known_material
 from twinform.passes.legalise.to_mjcf.writing_context import Body, MjcfContext, ScopedFrame, scope_of
 
 HIDDEN = 4
@@ -29,7 +30,8 @@ def _frame_site(context: MjcfContext, scoped: ScopedFrame, link: str | None) -> 
         shape = [("group", HIDDEN)]
     place = context.place(name, link, kind="frame")
     written = context.written_sites[name] = _name(context, name, frame)
-    return with_kept(make_element("site", [("name", written), *placement(place), *shape], source=frame.source), frame)
+    site = make_element("site", [("name", written), *placement(place), *shape], source=frame.source)
+    return with_known_material(context, with_kept(site, frame))
 
 
 def _name(context: MjcfContext, name: str, frame: Frame) -> str:
