@@ -10,7 +10,7 @@ from fuzz.table import TARGETS
 _ROOT = Path(__file__).parents[1]
 _TEXT = (_ROOT / "docs" / "explanation" / "hostile-input.md").read_text(encoding="utf-8")
 KINDS = (
-    "Models", "xacro", "SRDF and parameters", "JSON of the IR", "Configurations", "Path patterns", "Baselines",
+    "Models", "MJCF", "xacro", "SRDF and parameters", "JSON of the IR", "Configurations", "Path patterns", "Baselines",
     "Reproducers", "Meshes and textures", "USD", "Archives", "Manifests", "The cache of Fuel",
     "Results of earlier runs", "File names and links", "Environment variables", "The editor's protocol",
     "The tools of agents", "The 3D view", "Batches and Dask", "Passes and plugins of others",

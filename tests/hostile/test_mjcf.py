@@ -78,3 +78,17 @@ def test_nothing_outside_of_its_folder_is_read(spelling: str, content: str, tmp_
         assert "TOLD" not in outcome.output
         assert [each for each in outcome.opened if str(each).endswith("r.xml")]
         assert not [each for each in outcome.opened if str(each).endswith("/secret.xml")], outcome.opened
+
+
+_TWICE = '<asset><model name="m" file="{}.xml"/></asset><worldbody>{}</worldbody>'
+
+
+def test_models_that_attach_others_twice_are_counted(tmp_path: Path) -> None:
+    """Each of 25 small files doubles the next one."""
+    attach = "".join(f'<attach model="m" prefix="{each}"/>' for each in "ab")
+    for number in range(25):
+        (tmp_path / f"{number}.xml").write_text(f"<mujoco>{_TWICE.format(number + 1, attach)}</mujoco>")
+    (tmp_path / "25.xml").write_text(_world(f"<body>{_GEOM}</body>"))
+    outcome = twinform("check", "0.xml", "--max-tags", "10000", folder=tmp_path)
+    assert "Traceback" not in outcome.output
+    assert "oversized-file" in outcome.output
