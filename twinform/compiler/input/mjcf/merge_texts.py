@@ -3,7 +3,7 @@
 What stands in the file always counts. A carrier fills what is open, and gives names, frames and notations back.
 """
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from typing import TypeVar
 
 from twinform.compiler.input.mjcf.carried_texts import CarriedText, nodes_of, report_stale
@@ -164,16 +164,24 @@ class _Merged:
             if find_annotation(partial, LOOP) is None:
                 continue
             names = written_names(partial)
-            found = [each for each in model.joints if each.name in names]
-            ends = {(each.parent, each.child) for each in found}
-            if len(found) != len(names) or ends != {(partial.parent, partial.child)}:
+            ends = [(each.parent, each.child) for each in model.joints if each.name in names]
+            ends += self._held_together(names) if not ends else ()
+            if len(ends) != len(names) or set(ends) != {(partial.parent, partial.child)}:
                 self._stale(f"the loop that joint {partial.name!r} closed is another one now", partial)
             else:
+                self.spellings.agreed.update((tag, each) for tag in ("connect", "weld") for each in names)
                 whole = without_annotation(partial, LOOP, REST, WRITTEN)
                 kept = tuple(each for each in model.joints if each.name not in names)
                 model = model.copy(joints=(*kept, whole))
         self.joints = [each for each in self.joints if find_annotation(each, LOOP) is None]
         return model
+
+    def _held_together(self, names: Collection[str]) -> list[tuple[str | None, str | None]]:
+        """The links that equalities hold together which are no joints, since their bodies are in several trees."""
+        links = {written: link.name for link in self.links for written in written_names(link)}
+        found = [each for each in self.root.iterfind("equality/*") if each.get("name") in names]
+        bodies = [(each.get("body1"), each.get("body2")) for each in found]
+        return [(links.get(one or "", one), links.get(other or "", other)) for one, other in bodies]
 
     def _attached(self, model: Model) -> Model:
         """The model whose frames are attached to what they were, where that still moves with the same link."""

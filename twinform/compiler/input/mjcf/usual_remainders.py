@@ -31,7 +31,7 @@ def without_usual(node: AnyNode) -> AnyNode:
 
 
 def without_assets(model: Model, names: Collection[tuple[str, str]]) -> Model:
-    """The model without usual remainders, and without those of assets that are written again for what comes back.
+    """The model without usual remainders, and without those of named assets and equalities, which are written again.
 
     A shape does not keep the name of a material of which nothing is left: what it looks like says all of it.
     """
@@ -41,7 +41,7 @@ def without_assets(model: Model, names: Collection[tuple[str, str]]) -> Model:
             return part
         sections = tuple(
             section.copy(children=tuple(each for each in section.children if _name_of(each) not in names))
-            if section.name == "asset"
+            if section.name in {"asset", "equality"}
             else section
             for section in part.element.children
         )

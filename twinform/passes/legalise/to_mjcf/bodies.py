@@ -115,7 +115,7 @@ class _BodyTree:
             if between.parent not in self.folded:
                 break
             between = self.tree.joint_above(between.parent)
-        if between is None:
+        if between is None or found[0] in self.context.closing:  # a static link stays in the world
             return Hold(None, ())
         parent = None if between.parent == WORLD and WORLD not in self.tree.links else between.parent
         return Hold(parent, tuple(reversed(found)))

@@ -1,4 +1,4 @@
-"""Equalities of MJCF: joints that close a loop, which are no part of the tree (`context.tree.closing`).
+"""Equalities of MJCF: joints that close a loop, which are no part of the tree (`context.closing`).
 
 A ball is a `connect` at its origin, a fixed joint a `weld`, and a hinge two `connect`, at two points of its axis. They
 hold bodies where these are drawn. Joints of other types hold nothing in MJCF, and are carried.
@@ -25,7 +25,7 @@ ARM = 0.1
 
 def add_equalities(context: MjcfContext) -> None:
     """Add what closes loops to the `equality` section. All bodies and joints have their names by now."""
-    for between in context.tree.closing:
+    for between in context.closing:
         if between.type != "gearbox":  # which couples two joints, and connects nothing by itself
             _close(context, between)
 

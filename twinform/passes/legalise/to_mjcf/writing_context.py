@@ -24,7 +24,7 @@ from twinform.ir import (
     replace_fields,
 )
 from twinform.ir.frames import WORLD, Kind
-from twinform.ir.kinematic_tree import KinematicTree
+from twinform.ir.kinematic_tree import JointBetween, KinematicTree
 from twinform.ir.record import Sourced
 from twinform.ir.scopes import SCOPE, scoped_models
 from twinform.ir.transform import Transform
@@ -126,6 +126,14 @@ class MjcfContext:
         if not static:
             return frozenset()
         return frozenset(name for name in self.tree.links if name.startswith(static))
+
+    @cached_property
+    def closing(self) -> tuple[JointBetween, ...]:
+        """The joints that are constraints: those of loops, and those that hang a static link from one that moves."""
+        static = self.static_links
+        above = [self.tree.joint_above(name) for name in self.tree.links if name in static]
+        hanging = [each for each in above if each and each.parent in self.tree.links and each.parent not in static]
+        return (*self.tree.closing, *hanging)
 
     @cached_property
     def models(self) -> tuple[tuple[str, Model], ...]:

@@ -66,7 +66,7 @@ class WrittenFile:
     @cached_property
     def closing(self) -> frozenset[str]:
         """The joints that close loops."""
-        return frozenset(each.name for each in self.context.tree.closing)
+        return frozenset(each.name for each in self.context.closing)
 
     @cached_property
     def hidden(self) -> frozenset[str]:
