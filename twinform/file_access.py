@@ -2,7 +2,6 @@
 
 import errno
 import os
-import shlex
 import stat
 from collections.abc import Callable, Iterable, Iterator
 from itertools import chain
@@ -20,6 +19,8 @@ class OutsideError(PermissionError):
     def __init__(self, path: str, reason: str, place: str) -> None:
         super().__init__(errno.EACCES, f"it {reason}", path)
         self.reason = reason
+        import shlex  # noqa: PLC0415 - few files lead outside
+
         folder = shlex.quote(os.path.dirname(place))
         self.help = f"if this is meant, name that file itself, or give its folder: --path {folder}"
 

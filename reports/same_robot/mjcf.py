@@ -58,7 +58,7 @@ def _shortened(cause: str, most: int = 90) -> str:
     """A complaint without the names in it, so that like ones are counted together."""
     cause = _PLACE.sub("", cause)
     text = cause.partition("Element")[0].partition("'")[0].partition("[")[0].strip()
-    return text[:most] or cause[:most]
+    return (text[:most] or cause[:most]).replace("<", "&lt;")  # a page takes it for HTML
 
 
 SECTION = Section("mjcf", _ABOUT, measure, (corpus, drake, mujoco), KNOWN)

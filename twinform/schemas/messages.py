@@ -150,6 +150,13 @@ _MOST_NEIGHBORS = 200
 """In a hostile file a thousand unknown elements may stand beside a hundred thousand others."""
 
 
+_LOCATIONS = frozenset({
+    "{http://www.w3.org/2001/XMLSchema-instance}schemaLocation",
+    "{http://www.w3.org/2001/XMLSchema-instance}noNamespaceSchemaLocation",
+})  # fmt: skip
+"""Where schemas are, which may stand at each element by the rules of XSD."""
+
+
 def unknown_attribute(
     context: Context, element: XmlElement, name: str, known: Collection[str], children: Collection[str] = ()
 ) -> None:
@@ -160,6 +167,8 @@ def unknown_attribute(
     hint = hint_for_attribute(context.format, name, free, children) if _is_shown(context) else None
     refused = _is_refused(context, [str(element.tag), *_around(element)])
     context.report(rules.UNKNOWN_ATTRIBUTE, element, message, f"@{name}", found=name, help=hint, refused=refused)
+    if name in _LOCATIONS:
+        context.structural -= 1  # each XSD allows it everywhere
 
 
 def outside_version(context: Context, element: XmlElement, fact: Fact) -> None:

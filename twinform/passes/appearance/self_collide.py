@@ -37,7 +37,7 @@ class SelfCollide(AssetPass):
     """
 
     name: ClassVar[str] = "self-collide"
-    example: ClassVar[str] = "self-collide{srdf=arm.srdf}"
+    example: ClassVar[str] = "self-collide"
 
     srdf: str | None = Field(
         default=None,
