@@ -11,7 +11,9 @@ from twinform.testing import cases
 
 mujoco: Any = pytest.importorskip("mujoco")
 
-_CASES = [case.path for case in cases(CASES)]
+_OF_THE_SCHEMA = frozenset({"prefixes.mjcf"})
+"""What is wrong in these is found by the reader of the schema, before there is a canonical tree."""
+_CASES = [case.path for case in cases(CASES) if case.path.name not in _OF_THE_SCHEMA]
 _NOT_SUPPORTED = frozenset({rules.SCALED_FRAME.name, rules.OVERSIZED_FILE.name, rules.UNATTACHED_MODEL.name})
 """What MuJoCo does with these, or would if it had the memory, is not done here."""
 _STEP = 8

@@ -53,13 +53,26 @@ def axes_of(joint: Joint) -> tuple[Axis, ...]:
 
 def spanning_tree(joints: Iterable[AnyJoint]) -> Mapping[str, AnyJoint]:
     """Choose the joints that make a tree, by child link: of several, a fixed one, or the first by name."""
-    above: dict[str, AnyJoint] = {}
-    groups = Groups()
-    for joint in sorted(joints, key=lambda joint: (joint.type != "fixed", joint.name)):
-        if joint.child not in above and groups.find(joint.parent) != joint.child:
+    return _grown(joints)[0]
+
+
+def taken_for_tree(joints: Iterable[AnyJoint], others: Iterable[AnyJoint]) -> list[AnyJoint]:
+    """List those of some other joints that would be in the tree of `joints`, if each of them alone were one of them."""
+    return _grown(joints, others)[1]
+
+
+def _grown(joints: Iterable[AnyJoint], others: Iterable[AnyJoint] = ()) -> tuple[dict[str, AnyJoint], list[AnyJoint]]:
+    above, taken, groups = dict[str, AnyJoint](), list[AnyJoint](), Groups()
+    ranked = [*((joint, False) for joint in joints), *((joint, True) for joint in others)]
+    for joint, is_other in sorted(ranked, key=lambda each: (each[0].type != "fixed", each[0].name)):
+        if joint.child in above or groups.find(joint.parent) == joint.child:
+            continue
+        if is_other:
+            taken.append(joint)
+        else:
             above[joint.child] = joint
             groups.join(joint.parent, joint.child)
-    return above
+    return above, taken
 
 
 def slide(axis: Vector3, distance: float) -> Transform:

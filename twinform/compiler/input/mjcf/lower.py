@@ -14,7 +14,7 @@ from twinform.compiler.input.mjcf.assets import AssetTable
 from twinform.compiler.input.mjcf.contact_masks import ContactMasks, touches_itself
 from twinform.compiler.input.mjcf.geom_solids import GeomSolids
 from twinform.compiler.input.mjcf.lower_bodies import TreeLowering, TreeParts
-from twinform.compiler.input.mjcf.lower_equalities import followers, lower_loop
+from twinform.compiler.input.mjcf.lower_equalities import closing, followers, loop_of, lower_loop
 from twinform.compiler.input.mjcf.lower_geoms import GeomLowering
 from twinform.compiler.input.mjcf.lower_inertials import MassSettings, body_inertia, scale_of
 from twinform.compiler.input.mjcf.lower_joints import efforts
@@ -26,7 +26,7 @@ from twinform.compiler.input.mjcf.pieces import Piece, pose_of
 from twinform.compiler.input.mjcf.remainders import RemainderKeeper, in_sections, with_rest
 from twinform.compiler.input.mjcf.sections import Owners, Sections
 from twinform.compiler.resolve_uris import LocalAssets
-from twinform.ir import Document, Element, Format, Frame, Light, Link, Model, Sensor, World
+from twinform.ir import Document, Element, Format, Frame, Joint, Light, Link, Model, Sensor, World
 from twinform.passes.carriers.annotations import MADE_NAME, WORLDBODY, annotation, with_annotation
 from twinform.passes.carriers.carriers import NAMESPACE, PREFIX
 from twinform.passes.legalise.to_mjcf.kept_mjcf import ROOT
@@ -133,19 +133,19 @@ class FileLowering:
         return with_rest(model, in_sections(left))
 
     def _close_loops(self, number: int, lowering: TreeLowering, parts: TreeParts) -> None:
+        found: list[tuple[Piece, Joint]] = []
         for piece in self.owners.about(number, "equality"):
-            if piece.is_settled:
+            if piece.is_settled or lowering.mocap & {piece.peek("body1"), piece.peek("body2")}:
                 continue
             unnamed = f"{piece.peek('body1')}_{piece.peek('body2')}_{piece.tag}"
-            links = parts.links_of
-            if lowering.mocap & {piece.peek("body1"), piece.peek("body2")}:
-                continue
-            name = piece.name or unnamed
-            joint = lower_loop(piece, name, links, parts.joints, self.keeper)
-            if joint is not None:
-                made = lowering.names.make(safe_name(name))
-                marks = name_mark(piece.name, made)
-                parts.joints.append(joint.copy(name=made, opaque=(*marks, *joint.opaque)))
+            loop = loop_of(piece, piece.name or unnamed, parts.links_of)
+            if loop is not None:
+                found.append((piece, loop))
+        for place in sorted(closing((loop for _, loop in found), parts.joints)):
+            piece, loop = found[place]
+            joint = lower_loop(piece, loop, self.keeper)
+            made = lowering.names.make(safe_name(loop.name))
+            parts.joints.append(joint.copy(name=made, opaque=(*name_mark(piece.name, made), *joint.opaque)))
 
     def _add_sensors(self, number: int, parts: TreeParts) -> None:
         """Put the sensors at the sites of a model on its links and joints."""

@@ -7,7 +7,7 @@ from twinform.compiler.input.mjcf.pieces import Piece, placed_at
 from twinform.compiler.input.mjcf.remainders import RemainderKeeper, in_sections
 from twinform.ir import Joint, JointType, Mimic, Pose
 from twinform.ir.kinematic_tree import JointBetween
-from twinform.ir.motion import spanning_tree
+from twinform.ir.motion import taken_for_tree
 
 _LINEAR = 2
 """The number of coefficients of a mimic."""
@@ -41,13 +41,8 @@ def mimic_of(piece: Piece, found: JointFollowing, leader: str) -> Mimic:
     return Mimic.unchecked(joint=leader, multiplier=found.multiplier, offset=found.offset or None, source=piece.source)
 
 
-def lower_loop(
-    piece: Piece, name: str, links: Mapping[str, str], joints: Iterable[Joint], keeper: RemainderKeeper
-) -> Joint | None:
-    """Build the joint that closes a loop; None where it is no such equality, or names sites, or is switched off.
-
-    None as well where it would be taken for one of the tree: SDF does not say which of its joints close loops, and a
-    weld would then replace the joint that the body moves by.
+def loop_of(piece: Piece, name: str, links: Mapping[str, str]) -> Joint | None:
+    """The joint that an equality would close a loop by; None where it is none, or names sites, or is switched off.
 
     `links` has the names of links by those of bodies. A `connect` is a ball at `anchor`, in the frame of the first
     body; a `weld` is fixed where both bodies are drawn, unless it says another pose.
@@ -60,14 +55,25 @@ def lower_loop(
     if piece.tag == "weld" and _places(piece):
         return None
     kind: JointType = "ball" if piece.tag == "connect" else "fixed"
-    joint = Joint.unchecked(name=name, type=kind, parent=links[first], child=links[second])
-    above = spanning_tree(map(_between, [*joints, joint])).get(links[second])
-    if above is not None and above.joint is joint:
-        return None
+    return Joint.unchecked(name=name, type=kind, parent=links[first], child=links[second])
+
+
+def closing(loops: Iterable[Joint], joints: Iterable[Joint]) -> set[int]:
+    """The places among `loops` of those that no reader takes for one of the tree that the `joints` make.
+
+    SDF does not say which of its joints close loops, and a weld would then replace the joint that the body moves by.
+    """
+    asked = [*map(_between, loops)]
+    taken = {id(each) for each in taken_for_tree(map(_between, joints), asked)}
+    return {place for place, each in enumerate(asked) if id(each) not in taken}
+
+
+def lower_loop(piece: Piece, joint: Joint, keeper: RemainderKeeper) -> Joint:
+    """Take an equality: the joint that closes its loop, with its anchor and what else it says."""
     for attribute in ("body1", "body2", "active", "name"):
         piece.take(attribute)
     at = placed_at(piece.numbers("anchor")).translation if piece.tag == "connect" else None
-    pose = Pose.unchecked(xyz=at, relative_to=links[first]) if at else None
+    pose = Pose.unchecked(xyz=at, relative_to=joint.parent) if at else None
     element = keeper.rest_element(piece)
     rest = in_sections({"equality": (element,)}) if element.attributes else ()
     return joint.copy(pose=pose, opaque=rest, source=piece.source)
