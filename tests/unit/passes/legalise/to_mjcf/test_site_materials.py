@@ -21,4 +21,4 @@ def test_a_material_that_stayed_behind_is_not_named() -> None:
     written = twinform.convert(robot.encode(), to="mjcf").text
     assert '<site name="tip"' in written
     assert "mark" not in written
-    assert twinform.load(written.encode()).models
+    assert twinform.loads(written.encode()).models
