@@ -57,7 +57,7 @@ def spanning_tree(joints: Iterable[AnyJoint]) -> Mapping[str, AnyJoint]:
 
 
 def taken_for_tree(joints: Iterable[AnyJoint], others: Iterable[AnyJoint]) -> list[AnyJoint]:
-    """List those of some other joints that would be in the tree of `joints`, if each of them alone were one of them."""
+    """List which other joints would be part of the spanning tree of `joints`, each if it alone were added to them."""
     return _grown(joints, others)[1]
 
 

@@ -14,7 +14,7 @@ from twinform.compiler.input.mjcf.assets import AssetTable
 from twinform.compiler.input.mjcf.contact_masks import ContactMasks, touches_itself
 from twinform.compiler.input.mjcf.geom_solids import GeomSolids
 from twinform.compiler.input.mjcf.lower_bodies import TreeLowering, TreeParts
-from twinform.compiler.input.mjcf.lower_equalities import closing, followers, loop_of, lower_loop
+from twinform.compiler.input.mjcf.lower_equalities import followers, loop_of, lower_loop, places_beside_tree
 from twinform.compiler.input.mjcf.lower_geoms import GeomLowering
 from twinform.compiler.input.mjcf.lower_inertials import MassSettings, body_inertia, scale_of
 from twinform.compiler.input.mjcf.lower_joints import efforts
@@ -141,7 +141,7 @@ class FileLowering:
             loop = loop_of(piece, piece.name or unnamed, parts.links_of)
             if loop is not None:
                 found.append((piece, loop))
-        for place in sorted(closing((loop for _, loop in found), parts.joints)):
+        for place in places_beside_tree((loop for _, loop in found), parts.joints):
             piece, loop = found[place]
             joint = lower_loop(piece, loop, self.keeper)
             made = lowering.names.make(safe_name(loop.name))

@@ -58,14 +58,15 @@ def loop_of(piece: Piece, name: str, links: Mapping[str, str]) -> Joint | None:
     return Joint.unchecked(name=name, type=kind, parent=links[first], child=links[second])
 
 
-def closing(loops: Iterable[Joint], joints: Iterable[Joint]) -> set[int]:
-    """The places among `loops` of those that no reader takes for one of the tree that the `joints` make.
+def places_beside_tree(loops: Iterable[Joint], joints: Iterable[Joint]) -> list[int]:
+    """List the places of those loops that no reader takes for a joint of the tree that the `joints` make.
 
-    SDF does not say which of its joints close loops, and a weld would then replace the joint that the body moves by.
+    SDF does not say which of its joints close loops. A weld that is taken for one of the tree would replace the joint
+    that moves its body.
     """
     asked = [*map(_between, loops)]
     taken = {id(each) for each in taken_for_tree(map(_between, joints), asked)}
-    return {place for place, each in enumerate(asked) if id(each) not in taken}
+    return [place for place, each in enumerate(asked) if id(each) not in taken]
 
 
 def lower_loop(piece: Piece, joint: Joint, keeper: RemainderKeeper) -> Joint:

@@ -15,7 +15,7 @@ _Moments = tuple[float, tuple[float, float, float]]
 _THOMSEN = 1.6075
 """The exponent of Thomsen's approximation of the area of an ellipsoid."""
 _THIN = 1e-6
-"""How far the two ellipsoids are apart, over their half axes."""
+"""By how much the half axes of the outer ellipsoid are longer, in m."""
 
 
 def shell(shape: Shape, density: float) -> Solid | None:
