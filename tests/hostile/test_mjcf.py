@@ -22,11 +22,25 @@ def _copies(times: int, count: str) -> str:
 
 _SELF = '<asset><model name="m" file="r.xml"/></asset><worldbody><attach model="m" prefix="a"/></worldbody>'
 _ENTITY = "&lt;!DOCTYPE a [&lt;!ENTITY b SYSTEM 'secret'>]>&lt;link>&amp;b;&lt;/link>"
+_LONG = "1 " * 500_000
 _DOCUMENTS: dict[str, tuple[str, set[str]]] = {
     "a billion copies": (_copies(1, "1000000000"), {"oversized-file"}),
     "copies of copies": (_copies(10, "100"), {"oversized-file"}),
     "a billion copies in scientific notation": (_copies(1, "1e9"), {"invalid-value"}),
     "a billion copies of nothing": (_world('<replicate count="1000000000"/>'), set()),
+    "copies with long names": (
+        _world(f'<replicate count="5000" sep="{"x" * 1_000_000}"><body name="a">{_GEOM}</body></replicate>'),
+        {"oversized-file"},
+    ),
+    "copies of long lists": (
+        _world(f'<replicate count="5000"><geom size="1" user="{_LONG}"/></replicate>'), {"oversized-file"},
+    ),
+    "a class with a long list": (
+        _world(_GEOM * 5000, f'<default><geom user="{_LONG}"/></default>'), {"oversized-file"},
+    ),
+    "20,000 geoms in 200 frames": (
+        _world('<frame euler="1 2 3">' * 200 + _GEOM * 20_000 + "</frame>" * 200), set(),
+    ),
     "1,000 bodies deep": (_world("<body>" * 1000 + "</body>" * 1000), {"oversized-file"}),
     "100,000 geoms": (_world(_GEOM * 100_000), {"oversized-file"}),
     "an include of itself": ('<mujoco><include file="r.xml"/></mujoco>', {"include-cycle"}),
@@ -83,12 +97,33 @@ def test_nothing_outside_of_its_folder_is_read(spelling: str, content: str, tmp_
 _TWICE = '<asset><model name="m" file="{}.xml"/></asset><worldbody>{}</worldbody>'
 
 
-def test_models_that_attach_others_twice_are_counted(tmp_path: Path) -> None:
-    """Each of 25 small files doubles the next one."""
-    attach = "".join(f'<attach model="m" prefix="{each}"/>' for each in "ab")
-    for number in range(25):
-        (tmp_path / f"{number}.xml").write_text(f"<mujoco>{_TWICE.format(number + 1, attach)}</mujoco>")
-    (tmp_path / "25.xml").write_text(_world(f"<body>{_GEOM}</body>"))
-    outcome = twinform("check", "0.xml", "--max-tags", "10000", folder=tmp_path)
+_KEYS = '<keyframe><key qpos="1"/></keyframe>'
+_ATTACHED: dict[str, tuple[str, str, set[str]]] = {
+    "twice": ("ab", _world(f"<body>{_GEOM}</body>"), {"oversized-file"}),
+    "twice, with keyframes": ("ab", _world(f"<body><joint/>{_GEOM}</body>", _KEYS), {"oversized-file"}),
+    "twice, and empty": ("ab", _world(""), set()),
+    "200 times": ("0123456789" * 20, _world(""), set()),
+}
+
+
+@pytest.mark.parametrize("name", _ATTACHED)
+def test_models_that_attach_others_cost_what_comes_of_them(name: str, tmp_path: Path) -> None:
+    """Each of 24 small files has the next one in it several times."""
+    prefixes, last, expected = _ATTACHED[name]
+    attach = "".join(f'<attach model="m" prefix="{each}"/>' for each in prefixes)
+    keys = _KEYS if "keyframes" in name else ""
+    for number in range(24):
+        text = _TWICE.format(number + 1, attach) + keys
+        (tmp_path / f"{number}.xml").write_text(f"<mujoco>{text}</mujoco>")
+    (tmp_path / "24.xml").write_text(last)
+    outcome = twinform("check", "0.xml", folder=tmp_path)
     assert "Traceback" not in outcome.output
-    assert "oversized-file" in outcome.output
+    assert set(_RULE.findall(outcome.output)) == expected, outcome.output[:2000]
+
+
+def test_5000_includes_take_linear_time(tmp_path: Path) -> None:
+    for number in range(5_000):
+        (tmp_path / f"{number}.xml").write_text(f"<mujocoinclude>{_GEOM}</mujocoinclude>")
+    (tmp_path / "r.xml").write_text(_world("".join(f'<include file="{number}.xml"/>' for number in range(5_000))))
+    outcome = twinform("check", "r.xml", folder=tmp_path)
+    assert outcome.code == 0, outcome.output[:2000]

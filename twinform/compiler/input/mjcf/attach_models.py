@@ -4,8 +4,8 @@ What stands in other sections of that file, such as actuators and sensors, comes
 all come. Its classes and the units of its compiler hold for it alone. A model may be attached to itself.
 """
 
-from collections.abc import Callable, Iterable
-from contextlib import suppress
+import os
+from collections.abc import Callable, Iterable, Mapping
 from copy import deepcopy
 from dataclasses import field
 from pathlib import Path
@@ -13,23 +13,23 @@ from posixpath import dirname
 
 from lxml import etree
 
-from twinform.compiler.input.load_options import LoadOptions, unexpanded_name
 from twinform.compiler.input.mjcf.attached_keys import AttachedKeys, UncountableError
 from twinform.compiler.input.mjcf.compiler_settings import CompilerSettings
+from twinform.compiler.input.mjcf.copy_budget import CopyBudget, weight_of_tree
 from twinform.compiler.input.mjcf.element_findings import ElementFindings, give_number
-from twinform.compiler.input.mjcf.expand_frames import add_to_names, expand_frames, is_too_large
+from twinform.compiler.input.mjcf.expand_frames import add_to_names, expand_frames
 from twinform.compiler.input.mjcf.merge_settings import merge_settings
+from twinform.compiler.input.mjcf.model_files import CanonicalModel, ModelFiles
 from twinform.compiler.input.mjcf.references import ASSET_KINDS, kind_of, names_in, references_in, rename
-from twinform.compiler.input.mjcf.splice_includes import splice_includes
-from twinform.compiler.input.parsing import UnreadableError, parse, read_bytes, strip_default_namespace
-from twinform.compiler.input.size_limits import LIFTED_BY_TAGS
 from twinform.dataclass import dataclass
-from twinform.diagnostics import Diagnostic, DiagnosticSink, rules
+from twinform.diagnostics import rules
 from twinform.schemas import XmlElement
 
 _SECTIONS = ("contact", "deformable", "tendon", "equality", "actuator", "sensor", "custom")
 """The sections that come with what their elements refer to, each behind those that it may refer to."""
-_DEEPEST = 32
+
+_NUMBERS = 4
+"""How many numbers of a keyframe count as one element."""
 
 Prepare = Callable[[XmlElement, ElementFindings, "Attaching"], CompilerSettings]
 """Makes all canonical in the tree of an attached file but its frames."""
@@ -37,20 +37,29 @@ Prepare = Callable[[XmlElement, ElementFindings, "Attaching"], CompilerSettings]
 
 @dataclass(slots=True)
 class Attaching:
-    """How models are read, the files that are being read, and how many elements were attached so far."""
+    """The files of models, the ones around the tree that is at hand, and how much may be attached.
 
-    load_options: LoadOptions
+    A file is attached as its path says; that it is a link counts only for what may be read.
+    """
+
+    files: ModelFiles
     prepare: Prepare
-    files: tuple[Path, ...]
-    elements: list[int] = field(default_factory=lambda: [0])
+    budget: CopyBudget
+    above: tuple[Path, ...] = ()
     keys: AttachedKeys = field(default_factory=AttachedKeys)
+
+    def __post_init__(self) -> None:
+        self.above = self.above or (self.files.main,)
 
     def attach_all(self, root: XmlElement, findings: ElementFindings) -> None:
         """Put all attached models of a tree in their places."""
         attachments = [each for section in root.iterchildren("worldbody") for each in section.iter("attach")]
+        assets: dict[str, XmlElement] = {}
+        for asset in root.iterfind("asset/model"):
+            assets.setdefault(self.files.name_of(asset, self._path(asset)), asset)
         whole = deepcopy(root) if any("model" not in each.attrib for each in attachments) else None
         for attachment in attachments:
-            child = self._child(attachment, root, whole, findings)
+            child = self._child(attachment, assets, whole, findings)
             content = None if child is None else self._content(attachment, child)
             if child is not None and content is not None:
                 merge_settings(root, child, attachment, findings)
@@ -58,85 +67,105 @@ class Attaching:
             parent = attachment.getparent()
             if parent is not None:
                 parent.remove(attachment)
+            if self.budget.is_spent:
+                return
         attached = {each.get("model") for each in attachments}
+        for name, asset in assets.items():
+            if name not in attached:
+                self.files.find(asset, self._path(asset), self.above, findings)  # MuJoCo reads it, too
         for asset in [*root.iterfind("asset/model")]:
-            if self._name_of(asset) not in attached:
-                self._find(asset, findings)  # MuJoCo reads it, too
             parent = asset.getparent()
             if parent is not None:
                 parent.remove(asset)
 
     def _child(
-        self, attachment: XmlElement, root: XmlElement, whole: XmlElement | None, findings: ElementFindings
+        self,
+        attachment: XmlElement,
+        assets: Mapping[str, XmlElement],
+        whole: XmlElement | None,
+        findings: ElementFindings,
     ) -> XmlElement | None:
         """Return the tree that a model is taken from, with all in it canonical; None where there is none."""
         name = attachment.get("model")
         if name is None:
             return None if whole is None else self._own_tree(attachment, whole, findings)
-        asset = next((each for each in root.iterfind("asset/model") if self._name_of(each) == name), None)
+        asset = assets.get(name)
         if asset is None:
             message = f"no <model> of the assets is called {name!r}"
             findings.report(rules.UNATTACHED_MODEL, attachment, message, "@model", found=name)
             return None
-        child = self._find(asset, findings)
-        if child is None or self._is_too_much(child, attachment, findings):
+        model = self._canonical(asset, attachment, findings)
+        if model is None:
+            return None
+        child = self._part(attachment, model.root, findings, keep_all=_has_keys(model))
+        if child is None:
             return None
         give_number(child, attachment)
-        path = self._path(asset)
-        keys = AttachedKeys(counted=self.keys.counted)
-        inner = Attaching(self.load_options, self.prepare, (*self.files, path.resolve()), self.elements, keys)
-        settings = self.prepare(child, findings, inner)
         folder = dirname(asset.get("file", "").replace("\\", "/"))
         around = CompilerSettings(mesh_folder=folder, texture_folder=folder)
         for each in child.iter("*"):
             around.resolve_files(each)
-        if is_too_large(child, findings, self.load_options.limits.tags):
+        if not self.budget.spend_on_replicates(child, findings):
             return None
-        self._take_keys(attachment, child, settings, inner.keys, findings)
-        return self._selected(attachment, child, settings, findings)
+        self._take_keys(attachment, child, model, findings)
+        return self._selected(attachment, child, model.settings, findings)
+
+    def _canonical(self, asset: XmlElement, attachment: XmlElement, findings: ElementFindings) -> CanonicalModel | None:
+        """Return the canonical tree of a file, with all that it attaches; the first time, what is wrong is reported."""
+        path, known = self._path(asset), self.files.canonical
+        if path in known and path not in self.above:
+            return known[path]
+        root = self.files.find(asset, path, self.above, findings)
+        if root is None:
+            return None
+        give_number(root, attachment)
+        inner = Attaching(
+            self.files, self.prepare, self.budget, (*self.above, path), AttachedKeys(counted=self.keys.counted)
+        )
+        settings = self.prepare(root, findings, inner)
+        known[path] = None if self.budget.is_spent else CanonicalModel(root, settings, inner.keys)
+        return known[path]
 
     def write_keys(self, root: XmlElement, findings: ElementFindings) -> None:
         """Write the keyframes of what was attached into a tree whose frames are expanded."""
+        if not self._may_write(self.keys, root, root, findings):
+            return
         try:
             self.keys.write(root)
         except UncountableError:
             _report_left_out_keys(self.keys.waiting[0].origin, findings)
 
+    def _may_write(self, keys: AttachedKeys, root: XmlElement, element: XmlElement, findings: ElementFindings) -> bool:
+        """Count the numbers of keyframes: each has some for all joints, those that are attached beside it too."""
+        count = len(keys.waiting) + sum(1 for _ in root.iterfind("keyframe/key"))
+        parts = sum(1 for _ in root.iter("joint", "freejoint")) if keys.waiting else 0
+        return self.budget.spend(count * (1 + parts // _NUMBERS), element, findings)
+
     def _take_keys(
-        self,
-        attachment: XmlElement,
-        child: XmlElement,
-        settings: CompilerSettings,
-        inner: AttachedKeys,
-        findings: ElementFindings,
+        self, attachment: XmlElement, child: XmlElement, model: CanonicalModel, findings: ElementFindings
     ) -> None:
         """Take the keyframes of a model, and those that come with what is attached to that one."""
+        if not self._may_write(model.keys, child, attachment, findings):
+            return
         try:
-            if inner.waiting:
-                whole = self._expanded(child, settings, findings)
-                inner.write(whole)
+            if model.keys.waiting:
+                whole = self._expanded(child, model.settings, findings)
+                AttachedKeys(list(model.keys.waiting)).write(whole)
                 for section in [*child.iterchildren("keyframe")]:
                     child.remove(section)
                 child.extend(whole.iterchildren("keyframe"))
             if next(child.iterfind("keyframe/key"), None) is not None:
                 self.keys.mark(child)
-                self.keys.take(self._expanded(child, settings, findings), attachment.get("prefix", ""), attachment)
+                whole = self._expanded(child, model.settings, findings)
+                self.keys.take(whole, attachment.get("prefix", ""), attachment)
         except UncountableError:
             _report_left_out_keys(attachment, findings)
 
     def _expanded(self, child: XmlElement, settings: CompilerSettings, findings: ElementFindings) -> XmlElement:
         """Return a copy of a tree with its frames expanded; what is wrong with them is reported for the tree itself."""
         copy = deepcopy(child)
-        expand_frames(copy, settings, findings.silent(), self.load_options.limits.tags)
+        expand_frames(copy, settings, findings.silent(), CopyBudget(self.budget.most))
         return copy
-
-    def _name_of(self, asset: XmlElement) -> str:
-        """Return the name of a model among the assets: where it has none, the one that its file says."""
-        name, root = asset.get("name"), None
-        if not name:
-            with suppress(UnreadableError):
-                root = self._tree(self._path(asset), DiagnosticSink())
-        return name or (root.get("model", "MuJoCo Model") if root is not None else "")
 
     def _own_tree(self, attachment: XmlElement, whole: XmlElement, findings: ElementFindings) -> XmlElement | None:
         """Return a copy of the tree that an attachment is in, whose values are canonical already."""
@@ -144,8 +173,8 @@ class Attaching:
             message = "to attach a part of this model itself, its 'body' or 'frame' has to be named"
             findings.report(rules.UNATTACHED_MODEL, attachment, message)
             return None
-        child = deepcopy(whole)
-        if self._is_too_much(child, attachment, findings):
+        child = self._part(attachment, whole, findings)
+        if child is None or not self.budget.spend_on_replicates(child, findings):
             return None
         child = self._selected(attachment, child, CompilerSettings(degrees=False), findings)
         if child is not None and next(child.iter("attach"), None) is not None:
@@ -154,74 +183,48 @@ class Attaching:
             return None
         return child
 
+    def _part(
+        self, attachment: XmlElement, root: XmlElement, findings: ElementFindings, *, keep_all: bool = False
+    ) -> XmlElement | None:
+        """Return a copy of a tree, with no more in its world than the part that is attached; `keep_all` leaves it."""
+        part = None
+        tag = next((tag for tag in ("body", "frame") if tag in attachment.attrib), None)
+        if tag is not None:
+            name = attachment.get(tag)
+            tops = root.iterchildren("worldbody")
+            part = next((each for top in tops for each in top.iter(tag) if each.get("name") == name), None)
+            if part is None:
+                message = f"the model that is attached has no {tag} {name!r}"
+                findings.report(rules.UNATTACHED_MODEL, attachment, message, f"@{tag}", found=name)
+                return None
+        kept = [each for each in root.iterchildren("*") if part is None or keep_all or each.tag != "worldbody"]
+        more = len(attachment.get("prefix", ""))
+        weights = [weight_of_tree(each, more) for each in (*kept, *(() if part is None or keep_all else (part,)))]
+        if not self.budget.spend(sum(weights) + 1, attachment, findings):
+            return None
+        child = etree.Element(root.tag, dict(root.attrib))
+        child.extend(deepcopy(each) for each in kept)
+        if part is not None and not keep_all:
+            etree.SubElement(child, "worldbody").append(deepcopy(part))
+        return child
+
     def _selected(
         self, attachment: XmlElement, child: XmlElement, settings: CompilerSettings, findings: ElementFindings
     ) -> XmlElement | None:
         """Return a tree with nothing but the named body or frame in its world, and its frames expanded."""
         worldbody = child.find("worldbody")
-        for tag in ("body", "frame"):
+        tag = next((tag for tag in ("body", "frame") if tag in attachment.attrib), None)
+        if worldbody is not None and tag is not None:
             name = attachment.get(tag)
-            if name is None:
-                continue
-            found = None if worldbody is None else next((e for e in worldbody.iter(tag) if e.get("name") == name), None)
-            if worldbody is None or found is None:
-                message = f"the model that is attached has no {tag} {name!r}"
-                findings.report(rules.UNATTACHED_MODEL, attachment, message, f"@{tag}", found=name)
-                return None
+            found = next(each for each in worldbody.iter(tag) if each.get("name") == name)
             for each in list(worldbody):
                 worldbody.remove(each)
             worldbody.append(found)
-            break
-        expand_frames(child, settings, findings, self.load_options.limits.tags)
-        return child
-
-    def _is_too_much(self, child: XmlElement, attachment: XmlElement, findings: ElementFindings) -> bool:
-        self.elements[0] += sum(1 for _ in child.iter("*"))
-        most = self.load_options.limits.tags
-        if self.elements[0] <= most:
-            return False
-        message = f"the models that are attached have more than {most:,} elements together"
-        findings.report(rules.OVERSIZED_FILE, attachment, message, help=LIFTED_BY_TAGS)
-        return True
+        expand_frames(child, settings, findings, self.budget)
+        return None if self.budget.is_spent else child
 
     def _path(self, asset: XmlElement) -> Path:
-        return self.files[-1].parent / asset.get("file", "")
-
-    def _find(self, asset: XmlElement, findings: ElementFindings) -> XmlElement | None:
-        """Return the tree of the file of an asset, or None where it cannot be read, which is reported."""
-        file, path = asset.get("file", ""), self._path(asset)
-        if path.resolve() in self.files:
-            message = f"{file!r} attaches itself, directly or by way of others"
-            findings.report(rules.INCLUDE_CYCLE, asset, message, "@file", found=file)
-            return None
-        if len(self.files) > _DEEPEST:
-            message = f"{file!r} is attached inside of {_DEEPEST} other models"
-            findings.report(rules.TOO_MANY_INCLUDES, asset, message, "@file", found=file)
-            return None
-        found = DiagnosticSink(str(path))
-        root: XmlElement | None = None
-        with suppress(UnreadableError):
-            root = self._tree(path, found)
-        problem = next((each for each in found.diagnostics if each.is_error), None)
-        if problem is not None or root is None:
-            _report_unread(problem, file, asset, findings)
-            return None
-        if root.tag != "mujoco":
-            message = f"{file!r} is a <{root.tag}>, and only MJCF can be attached here"
-            findings.report(rules.UNATTACHED_MODEL, asset, message, "@file", found=file, expected="<mujoco>")
-            return None
-        return root
-
-    def _tree(self, path: Path, sink: DiagnosticSink) -> XmlElement:
-        search = self.load_options.search
-        unsaved = search.unsaved_of(path)
-        main = self.files[0]
-        text = read_bytes(path, sink, self.load_options.limits, search.readable(main)) if unsaved is None else unsaved
-        search.seen.add(path)
-        spliced = splice_includes(path, text, sink, self.load_options) if b"<include" in text else None
-        root = parse(spliced.text if spliced else text, sink, self.load_options.limits)
-        strip_default_namespace(root)
-        return root
+        return Path(os.path.realpath(self.above[-1].parent / asset.get("file", "")))
 
     def _content(self, attachment: XmlElement, child: XmlElement) -> list[XmlElement]:
         """Return what stands in the place of an attachment, with its prefix before all names of the tree."""
@@ -251,10 +254,8 @@ def _report_left_out_keys(element: XmlElement, findings: ElementFindings) -> Non
     findings.report(rules.UNATTACHED_MODEL, element, message, severity=rules.DROPPED_REFERENCE.severity)
 
 
-def _report_unread(problem: Diagnostic | None, file: str, asset: XmlElement, findings: ElementFindings) -> None:
-    why = problem.message if problem else "it cannot be read"
-    hint = problem.help if problem else None
-    findings.report(rules.UNATTACHED_MODEL, asset, f"{file!r}: {why}", "@file", found=file, help=hint)
+def _has_keys(model: CanonicalModel) -> bool:
+    return bool(model.keys.waiting) or next(model.root.iterfind("keyframe/key"), None) is not None
 
 
 def _known_names(child: XmlElement, content: Iterable[XmlElement]) -> dict[str, set[str]]:
@@ -290,8 +291,3 @@ def _take_in(attachment: XmlElement, child: XmlElement, content: list[XmlElement
                 own = etree.SubElement(root, tag)
                 give_number(own, attachment)
             own.extend(list(section.iterchildren("*")))
-
-
-def main_file(name: str) -> Path:
-    """Return the path of the file that is being read."""
-    return Path(unexpanded_name(name)).resolve()

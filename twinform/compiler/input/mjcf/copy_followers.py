@@ -7,6 +7,8 @@ and how many copies there are in all is limited before they are made.
 from collections.abc import Container, Iterable, Sequence
 from copy import deepcopy
 
+from twinform.compiler.input.mjcf.copy_budget import CopyBudget, weight_of_tree
+from twinform.compiler.input.mjcf.element_findings import ElementFindings
 from twinform.compiler.input.mjcf.references import KINDS, own_references, references_in, rename
 from twinform.schemas import XmlElement
 
@@ -19,15 +21,11 @@ _KINDS_OF_BODIES = frozenset(KINDS.values())
 Names = dict[str, set[str]]
 
 
-class TooManyCopiesError(Exception):
-    """More elements would be made than there may be."""
-
-
 class Followers:
-    """The elements of other sections by the names that they refer to, and how many more may be made."""
+    """The elements of other sections by the names that they refer to, and how many may be made."""
 
-    def __init__(self, root: XmlElement, most: int) -> None:
-        self._left = most
+    def __init__(self, root: XmlElement, budget: CopyBudget) -> None:
+        self._budget = budget
         self._places: dict[XmlElement, int] = {}
         self._by_name: dict[str, list[XmlElement]] = {}
         self._sections = [each for tag in _SECTIONS for each in root.iterchildren(tag)]
@@ -40,21 +38,26 @@ class Followers:
             for reference in references_in(element):
                 self._by_name.setdefault(reference.name, []).append(element)
 
-    def copy(self, names: Names, suffixes: Sequence[str], before: Container[str]) -> None:
-        """Copy all that refers to what was copied, once for each suffix, and take it out.
+    def copy(
+        self,
+        names: Names,
+        suffixes: Sequence[str],
+        before: Container[str],
+        replicate: XmlElement,
+        findings: ElementFindings,
+    ) -> None:
+        """Copy all that refers to what a replicate has copied, once for each suffix, and take it out.
 
         All else that such an element refers to has to be among the names `before` the copies. As in MuJoCo, others are
-        not copied, and constraints between what was copied and anything else are left out.
-
-        Raises:
-            TooManyCopiesError: there would be too many.
+        not copied, and constraints between what was copied and anything else are left out. Where there would be too
+        many, this is reported, and none is made.
         """
         known = {kind: set(each) for kind, each in names.items()}
         found = self._find(known, before)
         kept = [each for each in found if _is_whole(each, known)]
-        self._left -= len(kept) * len(suffixes)
-        if self._left < 0:
-            raise TooManyCopiesError
+        weight = sum(weight_of_tree(each, len(replicate.get("sep", ""))) for each in kept) * len(suffixes)
+        if not self._budget.spend(weight, replicate, findings):
+            return
         for suffix in suffixes:
             for each in kept:
                 copy = deepcopy(each)

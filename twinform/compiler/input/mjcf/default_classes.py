@@ -8,9 +8,11 @@ they are defined.
 from collections.abc import Callable, Mapping
 from copy import deepcopy
 from dataclasses import field
+from types import MappingProxyType
 from typing import NamedTuple
 
 from twinform.compiler.input.mjcf.actuator_defaults import ACTUATORS, ActuatorLevel, actuator_values
+from twinform.compiler.input.mjcf.copy_budget import CHARACTERS, CopyBudget
 from twinform.compiler.input.mjcf.element_findings import NUMBER, ElementFindings
 from twinform.dataclass import dataclass
 from twinform.diagnostics import nearest_name, rules
@@ -34,9 +36,13 @@ _ASSETS = frozenset({"mesh", "material", "texture"})
 
 
 class ClassValues(NamedTuple):
-    """What a class says, with what it inherits: attributes and children by element, and its actuators by level."""
+    """What a class says, with what it inherits: attributes and children by element, and its actuators by level.
+
+    The weights are how many elements the texts of the attributes count as, where they are long.
+    """
 
     attributes: Mapping[str, Mapping[str, str]]
+    weights: Mapping[str, int] = MappingProxyType({})
     layers: tuple[XmlElement, ...] = ()
     actuators: tuple[ActuatorLevel, ...] = ()
 
@@ -49,12 +55,13 @@ class DefaultClasses:
     """The classes of a file by name."""
 
     findings: ElementFindings
+    budget: CopyBudget
     classes: dict[str, ClassValues] = field(default_factory=lambda: {MAIN: _NOTHING})
 
     @classmethod
-    def of(cls, root: XmlElement, findings: ElementFindings) -> "DefaultClasses":
+    def of(cls, root: XmlElement, findings: ElementFindings, budget: CopyBudget) -> "DefaultClasses":
         """Read all classes of a file, and report those that have no name, or one that is taken."""
-        found = cls(findings)
+        found = cls(findings, budget)
         for top in root.iterchildren("default"):
             found._read_top(top)
         return found
@@ -127,17 +134,26 @@ class DefaultClasses:
         name = self._known(element, element.attrib.pop("class", None), "class") or around
         found = self.classes[name]
         values = found.attributes.get(kind)
-        if values:
+        if values and self._may_add(kind, found, element):
             left_out = _SPATIAL_ONLY if element.tag == "fixed" else ()
             merge_values(element, {key: text for key, text in values.items() if key not in left_out})
-        if kind == "material" and found.layers and "texture" not in element.attrib and not len(element):
+        if kind != "material" or not found.layers or "texture" in element.attrib or len(element):
+            return
+        if self.budget.spend(len(found.layers), element, self.findings):
             element.extend(deepcopy(each) for each in found.layers)
 
     def _merge_actuator(self, element: XmlElement) -> None:
         if element.tag not in ACTUATORS:
             return
         name = self._known(element, element.attrib.pop("class", None), "class") or MAIN
-        merge_values(element, actuator_values(element, self.classes[name].actuators))
+        values = actuator_values(element, self.classes[name].actuators)
+        if self.budget.spend(_weight_of(values), element, self.findings):
+            merge_values(element, values)
+
+    def _may_add(self, kind: str, found: ClassValues, element: XmlElement) -> bool:
+        """Count the long texts that a class adds to an element; those of most classes are short."""
+        weight = found.weights.get(kind, 0)
+        return not weight or self.budget.spend(weight, element, self.findings)
 
     def _known(self, element: XmlElement, name: str | None, attribute: str) -> str | None:
         """Return a name of a class, or None for one that there is not, which is reported."""
@@ -183,7 +199,12 @@ def _with_values(parent: ClassValues, element: XmlElement) -> ClassValues:
         if tag == "material" and (len(child) or "texture" in child.attrib):
             layers = tuple(child)
     level = (ActuatorLevel.of(actuators),) if actuators else ()
-    return ClassValues(attributes, layers, parent.actuators + level)
+    weights = {tag: weight for tag, values in attributes.items() if (weight := _weight_of(values))}
+    return ClassValues(attributes, weights, layers, parent.actuators + level)
+
+
+def _weight_of(values: Mapping[str, str]) -> int:
+    return sum(map(len, values.values())) // CHARACTERS
 
 
 def _over(values: Mapping[str, str], element: XmlElement) -> dict[str, str]:

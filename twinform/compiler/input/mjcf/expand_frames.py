@@ -1,7 +1,7 @@
 """Expands the `frame` and `replicate` elements of a canonical MJCF tree: what is in them is posed in the body around.
 
 The copies of a replicate have a number behind their names. What refers to something in it from another section, such
-as a sensor, is copied with it. How much comes of all copies is counted before anything is copied.
+as a sensor, is copied with it.
 """
 
 from collections.abc import Iterator
@@ -12,7 +12,8 @@ from lxml import etree
 
 from twinform.compiler.input.mjcf.canonical_values import rotation_of
 from twinform.compiler.input.mjcf.compiler_settings import CompilerSettings
-from twinform.compiler.input.mjcf.copy_followers import Followers, TooManyCopiesError
+from twinform.compiler.input.mjcf.copy_budget import CopyBudget, copies_of
+from twinform.compiler.input.mjcf.copy_followers import Followers
 from twinform.compiler.input.mjcf.element_findings import ElementFindings, set_line
 from twinform.compiler.input.mjcf.number_lists import Numbers, number_text, numbers_of
 from twinform.compiler.input.mjcf.quaternions import (
@@ -25,11 +26,9 @@ from twinform.compiler.input.mjcf.quaternions import (
     unit,
 )
 from twinform.compiler.input.mjcf.references import KINDS, names_in, rename
-from twinform.compiler.input.size_limits import LIFTED_BY_TAGS
 from twinform.diagnostics import rules
 from twinform.schemas import XmlElement
 
-_WRAPPERS = ("frame", "replicate")
 _POSED = frozenset({"body", "geom", "site", "camera", "frame", "flexcomp", "attach"})
 _BEFORE = etree.XPath("preceding::*/@name | ancestor::*/@name")
 _SCALES = ("scale", "massscale")
@@ -51,29 +50,22 @@ class FramePose(NamedTuple):
         return (a[0] + b[0], a[1] + b[1], a[2] + b[2])
 
 
-def is_too_large(root: XmlElement, findings: ElementFindings, most: int) -> bool:
-    """Report that the replicates of a tree make more elements than there may be, before any is made."""
-    sizes: dict[XmlElement, int] = {}
-    for _, element in etree.iterwalk(root, events=("end",)):
-        inside = sum(sizes.pop(child, 0) for child in element)
-        sizes[element] = inside * max(_count(element), 1) if element.tag == "replicate" else inside + 1
-        if sizes[element] > most:
-            message = f"the copies of this <{element.tag}> make more than {most:,} elements"
-            findings.report(rules.OVERSIZED_FILE, element, message, help=LIFTED_BY_TAGS)
-            return True
-    return False
-
-
-def expand_frames(root: XmlElement, settings: CompilerSettings, findings: ElementFindings, most: int) -> None:
-    """Put what is in frames and replicates in their places, the innermost first; `most` copies come with them."""
-    followers = Followers(root, most) if next(root.iter("replicate"), None) is not None else None
+def expand_frames(root: XmlElement, settings: CompilerSettings, findings: ElementFindings, budget: CopyBudget) -> None:
+    """Put what is in frames and replicates in their places, the innermost replicates first."""
+    followers = Followers(root, budget) if next(root.iter("replicate"), None) is not None else None
     for worldbody in root.iterchildren("worldbody"):
-        wrappers = [element for _, element in etree.iterwalk(worldbody, events=("end",), tag=_WRAPPERS)]
-        for wrapper in wrappers:
-            if wrapper.tag == "frame":
-                _expand_frame(wrapper, findings)
-            elif followers is not None:
-                _expand_replicate(wrapper, followers, settings, findings)
+        if followers is not None:
+            replicates = [element for _, element in etree.iterwalk(worldbody, events=("end",), tag="replicate")]
+            for replicate in replicates:
+                _expand_frames_in(replicate, findings)
+                _expand_replicate(replicate, followers, settings, findings)
+        _expand_frames_in(worldbody, findings)
+
+
+def _expand_frames_in(element: XmlElement, findings: ElementFindings) -> None:
+    """Expand the frames in an element, the outermost first, so that each of the others is posed but once."""
+    for frame in [*element.iter("frame")]:
+        _expand_frame(frame, findings)
 
 
 def _expand_frame(frame: XmlElement, findings: ElementFindings) -> None:
@@ -90,7 +82,7 @@ def _expand_frame(frame: XmlElement, findings: ElementFindings) -> None:
 def _expand_replicate(
     replicate: XmlElement, followers: Followers, settings: CompilerSettings, findings: ElementFindings
 ) -> None:
-    count = _count(replicate) if len(replicate) else 0
+    count = copies_of(replicate) if len(replicate) else 0
     for joint in replicate.iterchildren("joint", "freejoint"):
         message = "a joint may not stand in <replicate>, which would give its body several ones"
         findings.report(rules.JOINTS_OF_A_BODY, joint, message, help="write a <body> around it")
@@ -111,11 +103,7 @@ def _expand_replicate(
         pose = pose.of(step)
     before = _NamesBefore(replicate)
     if names:
-        try:
-            followers.copy(names, suffixes, before)
-        except TooManyCopiesError:
-            message = "the copies of what refers to this <replicate> are too many"
-            findings.report(rules.OVERSIZED_FILE, replicate, message, help=LIFTED_BY_TAGS)
+        followers.copy(names, suffixes, before, replicate, findings)
     _replace(replicate, copies)
 
 
@@ -194,14 +182,6 @@ def _turn_of(replicate: XmlElement, settings: CompilerSettings, findings: Elemen
     except UnturnableError as error:
         findings.report(rules.ZERO_AXIS, replicate, f"<replicate> has no orientation: {error}")
         return UNTURNED
-
-
-def _count(replicate: XmlElement) -> int:
-    """Return how many copies a replicate makes: none where it says no number, or a negative one."""
-    try:
-        return max(int(replicate.get("count", "0")), 0)
-    except ValueError:
-        return 0
 
 
 def _replace(wrapper: XmlElement, contents: list[XmlElement]) -> None:

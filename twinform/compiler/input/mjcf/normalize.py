@@ -6,7 +6,7 @@ files are named from the folder of the main file, and each section stands once.
 """
 
 from twinform.compiler.input.load_options import LoadOptions
-from twinform.compiler.input.mjcf.attach_models import Attaching, main_file
+from twinform.compiler.input.mjcf.attach_models import Attaching
 from twinform.compiler.input.mjcf.canonical_values import write_canonical_values
 from twinform.compiler.input.mjcf.check_angles import check_angles
 from twinform.compiler.input.mjcf.check_bodies import check_bodies
@@ -14,10 +14,12 @@ from twinform.compiler.input.mjcf.check_references import check_frame_names, che
 from twinform.compiler.input.mjcf.check_relations import check_relations
 from twinform.compiler.input.mjcf.check_shapes import check_notations, check_shapes
 from twinform.compiler.input.mjcf.compiler_settings import CompilerSettings, report_sequences, rewrite_compiler
+from twinform.compiler.input.mjcf.copy_budget import CopyBudget
 from twinform.compiler.input.mjcf.default_classes import DefaultClasses
 from twinform.compiler.input.mjcf.element_findings import ElementFindings, numbered_copy, take_numbers_out
-from twinform.compiler.input.mjcf.expand_frames import expand_frames, is_too_large
+from twinform.compiler.input.mjcf.expand_frames import expand_frames
 from twinform.compiler.input.mjcf.merge_sections import merge_sections
+from twinform.compiler.input.mjcf.model_files import ModelFiles, main_file
 from twinform.diagnostics.rules import INCLUDE_NOT_EXPANDED
 from twinform.schemas import Context, XmlElement
 
@@ -32,14 +34,17 @@ def normalize(root: XmlElement, context: Context, load_options: LoadOptions) -> 
     for include in copy.iter("include"):  # a text that is no file has no folder in which it could be
         message = f"nothing is known of {include.get('file', '')!r}, since this text is no file that could be beside it"
         findings.report(INCLUDE_NOT_EXPANDED, include, message)
-    attaching = Attaching(load_options, prepare, (main_file(context.file),))
+    budget = CopyBudget.of(load_options.limits)
+    attaching = Attaching(ModelFiles(load_options, main_file(context.file)), prepare, budget)
     settings = prepare(copy, findings, attaching)
-    if is_too_large(copy, findings, load_options.limits.tags):
+    if budget.is_spent or not budget.spend_on_replicates(copy, findings):
         return None
     if settings.degrees:
         check_angles(copy, findings)
-    expand_frames(copy, settings, findings, load_options.limits.tags)
+    expand_frames(copy, settings, findings, budget)
     attaching.write_keys(copy, findings)
+    if budget.is_spent:
+        return None
     rewrite_compiler(copy)
     check_canonical(copy, findings)
     take_numbers_out(copy)
@@ -51,7 +56,7 @@ def prepare(root: XmlElement, findings: ElementFindings, attaching: Attaching) -
     settings = CompilerSettings.of(root)
     report_sequences(root, findings)
     check_frame_names(root, findings)
-    DefaultClasses.of(root, findings).merge_into(root)
+    DefaultClasses.of(root, findings, attaching.budget).merge_into(root)
     for section in list(root.iterchildren("default")):
         root.remove(section)
     merge_sections(root)

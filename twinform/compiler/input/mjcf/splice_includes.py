@@ -55,6 +55,7 @@ class _Splicing:
     sink: DiagnosticSink
     load_options: LoadOptions
     texts: dict[str, bytes] = field(default_factory=dict[str, bytes])
+    shown: dict[str, str] = field(default_factory=dict[str, str])
     origins: dict[XmlElement, PartOrigin] = field(default_factory=dict[XmlElement, PartOrigin])
     above: dict[str, tuple[str, ...]] = field(default_factory=dict[str, tuple[str, ...]])
     tags: int = 0
@@ -64,6 +65,7 @@ class _Splicing:
     def take_in(self, root: XmlElement, file: str, text: bytes) -> None:
         """Remember where the elements of a file are."""
         self.texts[file] = text
+        self.shown[os.path.abspath(file)] = file  # noqa: PTH100 - links are files of their own
         self.above.setdefault(file, (file,))
         for number, element in enumerate(root.iter("*")):
             self.origins[element] = PartOrigin(file, element.sourceline or 0, number, 0)
@@ -125,8 +127,7 @@ class _Splicing:
 
     def _is_taken(self, include: XmlElement, name: str, file: str, shown: str, around: str) -> bool:
         """Report a file that was included before, or includes itself."""
-        known = {os.path.abspath(each): each for each in self.texts}  # noqa: PTH100 - links are files of their own
-        first = known.get(os.path.abspath(file))  # noqa: PTH100 - as above
+        first = self.shown.get(os.path.abspath(file))  # noqa: PTH100 - as above
         if first is None:
             return False
         chain = self.above[around]
