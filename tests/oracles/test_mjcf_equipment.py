@@ -241,6 +241,33 @@ def test_the_lesser_of_two_frictions_counts(
     assert data.contact[0].friction[0] == pytest.approx(expected)
 
 
+@pytest.mark.parametrize(
+    ("friction", "condim", "lengths"),
+    [
+        (
+            "<torsional><coefficient>0.5</coefficient><patch_radius>0.002</patch_radius></torsional>",
+            4,
+            (3 * np.pi / 16e3, 0),
+        ),
+        ("<torsional><patch_radius>0.2</patch_radius></torsional>", 4, (0.6 * np.pi / 16, 0)),
+        ("<bullet><rolling_friction>0.02</rolling_friction></bullet>", 6, (0, 0.02)),
+        ("<torsional><use_patch_radius>false</use_patch_radius><patch_radius>1</patch_radius></torsional>", 3, None),
+    ],
+)
+def test_a_ball_turns_and_rolls_with_the_friction_of_sdf_on_a_usual_floor(
+    tmp_path: Path, friction: str, condim: int, lengths: tuple[float, float] | None
+) -> None:
+    ball = _ball("c", surface=f"<surface><friction>{friction}</friction></surface>")
+    _, data = _loaded(_world(_GROUND + _model(_link("base", ball))), tmp_path)
+    assert data.ncon == 1
+    contact = data.contact[0]
+    assert contact.dim == condim
+    if lengths is not None:  # MuJoCo has no friction below 1e-5
+        torsional, rolling = (max(each, 1e-5) for each in lengths)
+        assert contact.friction[2] == pytest.approx(torsional, rel=1e-9)
+        assert condim == 4 or contact.friction[3] == pytest.approx(rolling)
+
+
 _BAR = _INERTIAL.replace("<inertial>", "<inertial><pose>{0}</pose>")
 
 

@@ -33,7 +33,9 @@ from twinform.schemas.value_types import format_number
 _OURS = f"{{{NAMESPACE}}}"
 # Elements and attributes whose numbers depend on the frame that they are expressed in, so that no
 # value can be expected.
-_COMPUTED = frozenset({"pose", "origin", "xyz", "rpy", "axis", "inertia", "ixx", "ixy", "ixz", "iyy", "iyz", "izz"})
+_COMPUTED = frozenset(
+    {"pose", "origin", "xyz", "rpy", "axis", "inertia", "ixx", "ixy", "ixz", "iyy", "iyz", "izz", "patch_radius"}
+)
 _SHAPE_NAME = lazy_pattern(r"(.+)_(?:visual|collision)(?:_\d+)?")
 _MATERIAL = lazy_pattern(r"(.+)_material(?:_\d+)?")
 _SCHEME = lazy_pattern(r"\b[a-z]+://")

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 
 from twinform.passes.carriers.mjcf_texts import parse_data, parse_text_name
+from twinform.passes.legalise.to_mjcf.friction import TORSIONAL_CONDIM, torsional_length
 from twinform.schemas import XmlElement
 
 KINDS = {
@@ -14,6 +15,7 @@ KINDS = {
 """Types of joints in MJCF, each with those of URDF and SDF that it stands for; what SDF leaves free has no joint."""
 _IMPLIED = {("worldbody", ""): ("world", "fixed"), **{("joint", name): kinds for name, kinds in KINDS.items()}}
 """Words that an element of MJCF stands for, by its name and type: a body in a body is fixed to it."""
+_OF_TORSION = (("patch_radius", "0"), ("coefficient", "1"))
 _WITH_HALF_SIZES = frozenset({"geom", "hfield"})
 COMPUTED = frozenset(
     {
@@ -37,7 +39,13 @@ def carried_in_mjcf(element: XmlElement) -> XmlElement | None:
 
 
 def implied_in_mjcf(element: XmlElement) -> Iterator[str]:
-    """Yield the words of SDF and URDF that an element of MJCF implies: types of joints, and whole for half sizes."""
+    """Yield the words of SDF and URDF that an element of MJCF implies: types of joints, and whole for half sizes.
+
+    And those that torsional friction of SDF implies in MJCF: a length, for contacts with four directions.
+    """
+    if element.tag == "torsional":
+        radius, factor = (float(element.findtext(name, usual)) for name, usual in _OF_TORSION)
+        yield from (repr(float(TORSIONAL_CONDIM)), repr(torsional_length(radius, factor)))
     yield from _IMPLIED.get((str(element.tag), element.get("type", "")), ())
     if element.tag in _WITH_HALF_SIZES:
         yield from (repr(2 * float(number)) for number in element.get("size", "").split())

@@ -17,11 +17,16 @@ from twinform.compiler.input.mjcf.pieces import Piece, pose_of
 from twinform.compiler.input.mjcf.remainders import RemainderKeeper, holder
 from twinform.ir import Collision, Element, Geometry, Opaque, Pose, Surface, Visual
 from twinform.passes.carriers.annotations import SAME_GEOM, annotation
+from twinform.passes.legalise.to_mjcf.friction import (
+    TORSIONAL_CONDIM,
+    USUAL_CONDIM,
+    USUAL_FRICTION,
+    torsional_part,
+)
 from twinform.passes.shared.nodes import reserve_name
 
 _SHOWN = 3
 """Groups from this one on are not shown by MuJoCo's viewer."""
-_USUAL_FRICTION = (1.0, 0.005, 0.0001)
 
 
 class LinkShapes(NamedTuple):
@@ -136,13 +141,18 @@ def _group(geom: Piece) -> int:
 
 
 def _surface(geom: Piece, mask: int | None) -> Surface | None:
-    """Return the sliding friction and the mask; torsional and rolling friction stay with the geom."""
-    friction = geom.numbers("friction")
-    if friction[1:] != _USUAL_FRICTION[1 : len(friction)]:
+    """Return the friction and the mask; rolling friction stays with the geom, and what its `condim` leaves out."""
+    mu, *lengths = (*geom.numbers("friction"), *USUAL_FRICTION[len(geom.numbers("friction")) :])
+    condim = int(geom.peek("condim") or USUAL_CONDIM)
+    turns = condim >= TORSIONAL_CONDIM and lengths[0] > 0.0
+    if condim == TORSIONAL_CONDIM and turns:
+        geom.take("condim")
+    if lengths[1] != USUAL_FRICTION[2] or (not turns and lengths[0] != USUAL_FRICTION[1]):
         geom.leave("friction")
-    mu = friction[0] if friction and friction[0] != _USUAL_FRICTION[0] else None
-    if mu is None and mask is None:
+    opaque = (torsional_part(lengths[0]),) if turns else ()
+    if mask is not None:
+        opaque += (Opaque.unchecked(at="contact", element=Element.unchecked(name="collide_bitmask", text=str(mask))),)
+    sliding = None if mu == USUAL_FRICTION[0] else mu
+    if sliding is None and not opaque:
         return None
-    element = Element.unchecked(name="collide_bitmask", text=str(mask))
-    opaque = () if mask is None else (Opaque.unchecked(at="contact", element=element),)
-    return Surface.unchecked(mu=mu, mu2=mu, opaque=opaque, source=geom.source)
+    return Surface.unchecked(mu=sliding, mu2=sliding, opaque=opaque, source=geom.source)

@@ -38,7 +38,7 @@ _REASONS: Mapping[str, str] = {
         ),
         _SOLVER,
     ),
-    "friction": "SDF has no torsional and rolling friction with lengths",
+    "friction": "SDF has rolling friction only for Bullet, and no friction that contacts leave out",
     "contype": "SDF has one mask for both sides of a contact",
     "conaffinity": "SDF has one mask for both sides of a contact",
     "group": _SHOWN,

@@ -12,7 +12,8 @@ from twinform.ir.kinematic_tree import KinematicTree
 from twinform.ir.rewrite import ANYTHING
 from twinform.ir.scopes import scoped_models
 from twinform.passes.carriers.annotations import annotation, find_annotation, without_annotation
-from twinform.passes.legalise.to_mjcf.contact_plan import ContactPlan, coefficient, friction_priorities
+from twinform.passes.legalise.to_mjcf.contact_plan import ContactPlan
+from twinform.passes.legalise.to_mjcf.friction import friction_of, friction_priorities
 from twinform.passes.legalise.to_mjcf.kept_mjcf import KEPT
 from twinform.schemas import XmlElement
 
@@ -84,7 +85,7 @@ def settle_contacts(holder: Model | World) -> Model | World:
         if note is None:
             return collision
         bits = plan.bits(link, collision)
-        expected = Touch(*bits, priorities[coefficient(collision)])
+        expected = Touch(*bits, priorities[friction_of(collision)])
         return _with_differences(without_annotation(collision, _TOUCH), note, expected)
 
     return _excluding(rewrite(holder, Link, settled, having=ANYTHING), plan)

@@ -5,6 +5,7 @@ What an edit has changed does not agree any more, and counts.
 """
 
 import math
+from collections.abc import Collection
 from typing import TypeVar, cast
 
 from twinform.ir import (
@@ -34,6 +35,7 @@ from twinform.passes.carriers.absorb import CarrierError, absorb
 from twinform.passes.carriers.annotations import find_annotation, without_annotation
 from twinform.passes.carriers.mjcf_texts import AXES, LOOK_OF, SHAPE_OF, TURN, Tagged, digest_of, look_parts
 from twinform.passes.legalise.to_mjcf.contact_plan import MASKS
+from twinform.passes.legalise.to_mjcf.friction import friction_of, rolling_of, torsional_part, with_rolling
 from twinform.passes.legalise.to_mjcf.kept_mjcf import KEPT
 from twinform.passes.legalise.to_mjcf.said_parts import untyped, without_elements
 from twinform.passes.shared.poses import read_vector
@@ -70,9 +72,9 @@ class Spellings:
         if isinstance(node, Visual) and isinstance(partial, Visual):
             made = self._with_look(*_with_shape(node, partial))
         elif isinstance(node, Collision) and isinstance(partial, Collision):
-            made = _with_shape(node, partial)
+            made = self._with_rolling(*_with_shape(node, partial))
         elif isinstance(node, Surface) and isinstance(partial, Surface):
-            made = _with_second_coefficient(node, partial)
+            made = _with_torsion(*_with_second_coefficient(node, partial))
         elif isinstance(node, Joint) and isinstance(partial, Joint):
             made = _with_turn(_with_type(node, partial), partial), without_annotation(partial, TURN)
         elif isinstance(node, Mimic) and isinstance(partial, Mimic):
@@ -94,7 +96,15 @@ class Spellings:
         if digest_of(parts) != note.get("digest"):
             return node, partial.copy(material=None)
         self.agreed.update((tag, attributes["name"]) for tag, attributes in parts if "name" in attributes)
-        return node.copy(material=None, opaque=_without_material(node.opaque)), partial
+        return node.copy(material=None, opaque=_without_attributes(node.opaque, {"material"})), partial
+
+    def _with_rolling(self, node: Collision, partial: Collision) -> tuple[Collision, Collision]:
+        """The rolling friction of the file in place of that of the source, which has a word of Bullet for it."""
+        geom = self._geoms.get(node.name or "")
+        if geom is None or partial.surface is None or friction_of(partial).rolling <= 0.0:
+            return node, partial
+        surface = with_rolling(partial.surface, rolling_of(_attributes(geom)))
+        return node.copy(opaque=_without_attributes(node.opaque, {"friction", "condim"})), partial.copy(surface=surface)
 
     def _asset(self, tag: str, name: str) -> list[Tagged]:
         found = self._assets.get((tag, name))
@@ -105,19 +115,18 @@ def _attributes(element: XmlElement) -> dict[str, str]:
     return {str(name): str(value) for name, value in element.items()}
 
 
-def _without_material(parts: tuple[Opaque, ...]) -> tuple[Opaque, ...]:
-    """Remainders of a geom without the name of its material."""
-    found: list[Opaque] = []
-    for part in parts:
-        if part.element is not None and part.element.name == KEPT:
-            children = tuple(map(_without_its_material, part.element.children))
-            part = part.copy(element=part.element.copy(children=children))  # noqa: PLW2901 - its new form
-        found.append(part)
-    return tuple(found)
+def _without_attributes(parts: tuple[Opaque, ...], names: Collection[str]) -> tuple[Opaque, ...]:
+    """Remainders of a geom without attributes, such as the name of its material."""
+    return tuple(
+        part.copy(element=part.element.copy(children=tuple(_without(each, names) for each in part.element.children)))
+        if part.element is not None and part.element.name == KEPT
+        else part
+        for part in parts
+    )
 
 
-def _without_its_material(element: Element) -> Element:
-    return element.copy(attributes=tuple(pair for pair in element.attributes if pair[0] != "material"))
+def _without(element: Element, names: Collection[str]) -> Element:
+    return element.copy(attributes=tuple(pair for pair in element.attributes if pair[0] not in names))
 
 
 def _with_shape(node: AnyShape, partial: AnyShape) -> tuple[AnyShape, AnyShape]:
@@ -219,3 +228,13 @@ def _with_second_coefficient(node: Surface, partial: Surface) -> tuple[Surface, 
     if node.mu2 == node.mu and partial.mu2 is not None:
         node = node.copy(mu2=partial.mu2)
     return node, partial
+
+
+def _with_torsion(node: Surface, partial: Surface) -> tuple[Surface, Surface]:
+    """The torsional friction of the file, with what the source has of it beside the radius of the contact."""
+    rest, own = (untyped(each, "torsional") for each in (partial, node))
+    if own is None:
+        return node, partial
+    patch = friction_of(Collision.unchecked(surface=node)).torsional
+    others = tuple(part for part in node.opaque if part.element is not own)
+    return node.copy(opaque=(torsional_part(patch, rest), *others)), without_elements(partial, {"friction/torsional"})

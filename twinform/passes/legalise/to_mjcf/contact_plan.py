@@ -7,13 +7,10 @@ the one has a bit of `conaffinity` of the other.
 
 A model whose links do not touch gets a bit of its own, which is in the `contype` of its geoms and in the `conaffinity`
 of everything but them. So a robot alone has 1 and 0, and still touches what has the defaults, 1 and 1.
-
-Of two coefficients of friction the lesser one counts in SDF; in MJCF it is the greater one, or that of the geom with
-the higher priority.
 """
 
 from collections import Counter, defaultdict
-from collections.abc import Collection, Iterable, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from functools import cached_property
 from itertools import combinations
 from typing import NamedTuple
@@ -29,8 +26,6 @@ MOST_BITS = 31
 """How many models may have a bit: the numbers are signed and have 32."""
 ALL_TOUCH = 65535
 """The masks of a collision of SDF that has none written."""
-_USUAL_FRICTION = 1.0
-"""The coefficient of what has none written, in SDF and in MJCF."""
 Pair = tuple[str, str]
 
 
@@ -232,19 +227,3 @@ def _self_colliding(holder: Model | World) -> Iterator[tuple[str, bool]]:
             for link in each.links:
                 own = link.self_collide
                 yield scope + link.name, of_models[scope] if own is None else own
-
-
-def coefficient(collision: Collision) -> float:
-    """The coefficient of sliding friction of a collision."""
-    mu = collision.surface.mu if collision.surface is not None else None
-    return _USUAL_FRICTION if mu is None else mu
-
-
-def friction_priorities(collisions: Iterable[Collision]) -> Mapping[float, int]:
-    """The priority of each coefficient: the less the friction, the higher, so that the lesser of two counts.
-
-    That of the usual one is 0, also against what other files have.
-    """
-    found = sorted({_USUAL_FRICTION, *(coefficient(each) for each in collisions)}, reverse=True)
-    usual = found.index(_USUAL_FRICTION)
-    return {mu: place - usual for place, mu in enumerate(found)}

@@ -1,10 +1,17 @@
-"""Contacts of MJCF: which geoms touch, how they slide, and the exclusions of the `contact` section."""
+"""Contacts of MJCF: which geoms touch, how they slide, turn and roll, and the exclusions of the `contact` section."""
 
 from collections.abc import Iterator
 
 from twinform.ir import Collision
-from twinform.passes.legalise.to_mjcf.contact_plan import USUAL, Bits, coefficient
+from twinform.passes.legalise.to_mjcf.contact_plan import USUAL, Bits
 from twinform.passes.legalise.to_mjcf.elements import Value, make_element
+from twinform.passes.legalise.to_mjcf.friction import (
+    USUAL_CONDIM,
+    USUAL_FRICTION,
+    Friction,
+    friction_of,
+    without_friction,
+)
 from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements
 from twinform.passes.legalise.to_mjcf.writing_context import Body, MjcfContext
 
@@ -25,14 +32,35 @@ def _bits(context: MjcfContext, body: Body, collision: Collision) -> Iterator[tu
 
 
 def _friction(context: MjcfContext, collision: Collision) -> Iterator[tuple[str, Value]]:
-    """Yield the sliding friction, before the other two of a geom of MJCF, and the priority that makes it count."""
-    others = tuple(map(float, _kept(collision, "friction").split()[1:]))
-    if not others and (collision.surface is None or collision.surface.mu is None):
-        return
-    mu = coefficient(collision)
-    yield "friction", (mu, *others)
-    if not context.is_of_mjcf and (priority := context.friction_priorities[mu]):
+    """Yield the friction, for how many directions it is, and the priority that makes it count."""
+    friction, surface = friction_of(collision), collision.surface
+    numbers = (friction.sliding, *_lengths(collision, friction))
+    if len(numbers) > 1 or (surface is not None and surface.mu is not None):
+        yield "friction", numbers
+    if friction.condim > max(_kept_condim(collision), USUAL_CONDIM):
+        yield "condim", str(friction.condim)
+    if not context.is_of_mjcf and (priority := context.friction_priorities[friction]):
         yield "priority", str(priority)
+    if surface is not None and not context.is_of_mjcf and (left := without_friction(surface)) is not surface:
+        context.leave(surface, left)
+
+
+def _lengths(collision: Collision, friction: Friction) -> tuple[float, ...]:
+    """The torsional and rolling friction of a geom, as far as they are not the usual ones.
+
+    A geom of MJCF keeps the one that rolls, and the one that turns where its `condim` leaves that out.
+    """
+    _, *kept = map(float, _kept(collision, "friction").split() or ("0",))
+    _, torsional, rolling = (friction.sliding, *kept, *USUAL_FRICTION[1 + len(kept) :])
+    if friction.condim > USUAL_CONDIM or _kept_condim(collision) > USUAL_CONDIM:
+        torsional = friction.torsional
+    found = (torsional, friction.rolling or rolling)
+    needed = max((place for place in (1, 2) if found[place - 1] != USUAL_FRICTION[place]), default=0)
+    return found[: max(needed, len(kept))]
+
+
+def _kept_condim(collision: Collision) -> int:
+    return int(_kept(collision, "condim") or "0")
 
 
 def _kept(collision: Collision, name: str) -> str:

@@ -17,6 +17,7 @@ from twinform.passes.carriers.carriers import NAMESPACE, bits_of_ours, is_carrie
 from twinform.passes.carriers.mjcf_texts import DOCUMENT, SEVERAL, bare_xml, text_element, text_name, xml_data
 from twinform.passes.carriers.partial_nodes import REST, is_bare, remainder
 from twinform.passes.legalise.to_mjcf.contact_plan import MASKS
+from twinform.passes.legalise.to_mjcf.friction import without_friction
 from twinform.passes.legalise.to_mjcf.inertials import weight_of
 from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements
 from twinform.passes.legalise.to_mjcf.said_parts import without_elements
@@ -176,11 +177,11 @@ def _as_mjcf_has_link(link: Link, *, has_masks: bool) -> Link:
 
 
 def _as_mjcf_has_collision(collision: Collision, *, has_masks: bool) -> Collision:
-    """A collision with one coefficient of friction, and without masks if the bits of its geom have them."""
+    """A collision without friction but for a second coefficient, or masks if the bits of its geom have them."""
     surface = collision.surface
     if surface is None:
         return collision
-    surface = without_elements(surface, _MASKS) if has_masks else surface
+    surface = without_friction(without_elements(surface, _MASKS) if has_masks else surface)
     return collision.copy(surface=surface.copy(mu2=None) if surface.mu2 == surface.mu else surface)
 
 

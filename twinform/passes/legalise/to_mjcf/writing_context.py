@@ -31,7 +31,8 @@ from twinform.ir.transform import Transform
 from twinform.passes.carriers.annotations import MADE_NAME, find_annotation
 from twinform.passes.carriers.carriers import Keeper
 from twinform.passes.framework.assets import NO_ASSETS, Assets
-from twinform.passes.legalise.to_mjcf.contact_plan import ContactPlan, friction_priorities
+from twinform.passes.legalise.to_mjcf.contact_plan import ContactPlan
+from twinform.passes.legalise.to_mjcf.friction import Friction, friction_priorities
 from twinform.passes.legalise.to_mjcf.kept_mjcf import ROOT, kept_elements
 from twinform.passes.shared.replaced_shapes import ShapeReplacer
 
@@ -183,8 +184,8 @@ class MjcfContext:
         return ContactPlan(self.holder, self.tree, self.static_links, is_of_mjcf=self.is_of_mjcf)
 
     @cached_property
-    def friction_priorities(self) -> Mapping[float, int]:
-        """The priority of geoms by their coefficient of friction."""
+    def friction_priorities(self) -> Mapping[Friction, int]:
+        """The priority of geoms by their friction."""
         return friction_priorities(each for link in self.tree.links.values() for each in link.collisions)
 
     @cached_property
