@@ -143,7 +143,7 @@ def report_contact_sensors(document: Document, sink: DiagnosticSink) -> None:
 
 
 def _report_unknown_collisions(model: Model, sink: DiagnosticSink) -> None:
-    from twinform.passes.legalise.to_sdf.follow_lumped_names import (  # noqa: PLC0415 - few robots have such sensors
+    from twinform.passes.legalise.lumped_names import (  # noqa: PLC0415 - few robots have such sensors
         names_of_libsdformat,
         own_collisions,
     )

@@ -29,6 +29,7 @@ from twinform.schemas.value_readers import LAST_LINE, element_xml, node_class, r
 from twinform.schemas.value_types import VALUE_TYPES, format_value, parse_value
 from twinform.schemas.xml import (
     XmlElement,
+    clark_name,
     declared_namespaces,
     has_prefixed_attributes,
     in_usual_namespaces,
@@ -53,6 +54,7 @@ __all__ = [
     "Version",
     "WrittenParts",
     "XmlElement",
+    "clark_name",
     "declared_namespaces",
     "element_xml",
     "end_of_element",

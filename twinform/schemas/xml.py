@@ -12,6 +12,7 @@ __all__ = [
     "BLANKS",
     "XmlElement",
     "children",
+    "clark_name",
     "declared_namespaces",
     "has_prefixed_attributes",
     "in_usual_namespaces",
@@ -102,6 +103,12 @@ def undeclared_prefix(namespace: str) -> str | None:
 def usual_namespace(prefix: str) -> str:
     """Return the usual namespace of a prefix: readers of these files go by the prefix alone."""
     return _USUAL.get(prefix, f"urn:{prefix}")
+
+
+def clark_name(word: str) -> str:
+    """The name of an element in Clark notation, for one with a usual prefix."""
+    prefix, _, local = word.rpartition(":")
+    return f"{{{usual_namespace(prefix)}}}{local}" if prefix else local
 
 
 def in_usual_namespaces(names: str) -> str:

@@ -45,9 +45,8 @@ from twinform.option import require_options
 from twinform.passes import Assets, Pass, Pipeline
 from twinform.passes.carriers.misplaced import without_misplaced
 from twinform.passes.carriers.token_mass import without_tokens
-from twinform.passes.legalise.changed_names import RestoreNames
+from twinform.passes.legalise.changed_names import RestoreNames, UniqueNames
 from twinform.passes.legalise.to_sdf.sequence import to_sdf
-from twinform.passes.legalise.to_sdf.unique_names import UniqueNames
 from twinform.passes.legalise.to_urdf.restore_links import without_loose_floating
 from twinform.passes.legalise.to_urdf.select_model import Selector
 from twinform.passes.sdf_versions import raise_words

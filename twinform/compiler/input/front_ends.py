@@ -73,7 +73,7 @@ def build_sdf(root: XmlElement, context: Context) -> Document:
 def check_extensions(document: Document, sink: DiagnosticSink) -> None:
     """Check the `<gazebo>` and `<drake:joint>` elements of a URDF file by reading them as a conversion would."""
     if any(each.form is None for model in document.models for each in foreign_joints(model)):
-        from twinform.passes.legalise.to_sdf.read_drake_joints import ReadDrakeJoints  # noqa: PLC0415 - as below
+        from twinform.passes.legalise.drake_joints import ReadDrakeJoints  # noqa: PLC0415 - as below
 
         found = DiagnosticSink(file=sink.file, strict=sink.strict)
         ReadDrakeJoints.unchecked().run(document, found)

@@ -13,12 +13,26 @@ An annotation has the name that it was made for: where that was edited since, th
 <tf:look>ambient script</tf:look>                   in a link of SDF: what URDF sets for all its visuals in a `<gazebo>`
 """
 
-from collections.abc import Iterable, Iterator
-from typing import Any, ClassVar
+from collections.abc import Collection, Iterable, Iterator
+from typing import Any, ClassVar, TypeVar
 
-from twinform.diagnostics import DiagnosticSink
+from twinform.diagnostics import DiagnosticSink, rules
 from twinform.diagnostics.rules import STALE_CARRIER
-from twinform.ir import Collision, Color, Element, Format, Frame, Joint, Light, Link, Model, Opaque, Sensor, Visual
+from twinform.ir import (
+    Collision,
+    Color,
+    Element,
+    Format,
+    Frame,
+    Joint,
+    Light,
+    Link,
+    Model,
+    Opaque,
+    Sensor,
+    Visual,
+    map_references,
+)
 from twinform.ir.node import NOT_CONTENT
 from twinform.passes.carriers.annotations import (
     AnyNode,
@@ -29,9 +43,12 @@ from twinform.passes.carriers.annotations import (
     without_annotation,
     wrote_scopes,
 )
+from twinform.passes.carriers.carriers import Keeper
 from twinform.passes.framework.pass_base import ModelPass
+from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
+from twinform.passes.shared.nodes import reserve_name
 from twinform.passes.shared.poses import NESTED
-from twinform.passes.structure.rename_parts import Part, rename_model, scope_of
+from twinform.passes.structure.rename_parts import Part, follow_references, rename_model, scope_of
 
 COLORS = "colors"
 SCRIPTS = "scripts"
@@ -222,3 +239,106 @@ def _model_by_its_name(model: Model) -> Model:
         return model
     model = without_annotation(model, NAME)
     return model.copy(name=_old_name(found)) if found.get("instead_of") == model.name else model
+
+
+Named = TypeVar("Named", Link, Joint, Model)
+_NO_NAME = "robot"
+"""The name of a robot without one, since SDF requires a name."""
+
+
+class UniqueNames(ModelPass):
+    """Give joints names that no link has, and links names that SDF does not keep for itself.
+
+    Changes: 1. a joint with a link's name becomes `NAME_joint` (with a number if that is taken too), and mimics and
+    poses follow; 2. a link called `world`, or with two underscores at both ends, becomes `NAME_link`, and joints and
+    poses follow; 3. names lose the blanks around them, which libsdformat drops where it reads them; 4. a robot without
+    a name is called `robot`.
+    References follow, also those in frames, sensors and plugins of `<gazebo>`, as in the pass `rename`.
+    Never touches: a floating joint, which SDF does not have; a text that may be something else than a reference.
+    Diagnostics: `renamed`, and `unfollowed-name` for such a text. The old name is carried.
+    """
+
+    name: ClassVar[str] = "unique-names"
+    carriers: bool = True
+    silent: bool = False
+    """For a target that gives the old names back: nothing is reported."""
+
+    def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
+        """The model with one name for each thing."""
+        if not model.name.strip():
+            model = self._rename(model, _NO_NAME, sink)
+        names = {link.name for link in model.links}
+        taken = names | {joint.name for joint in model.joints}
+        links = {name: reserve_name(_legal_name(name, "link"), taken) for name in sorted(names) if _is_reserved(name)}
+        kept = (joint.name for joint in model.joints if joint.type != "floating")  # SDF has no joint there
+        clashes = [name for name in kept if name in names or _is_reserved(name)]
+        joints = {name: reserve_name(_legal_name(name, "joint", names), taken) for name in clashes}
+        if not links and not joints:
+            return model
+        new: dict[str, dict[str, str]] = {"link": links, "joint": joints}
+        # typed references mean links and joints here, also one called `world`, which means something else in SDF
+        followed = map_references(model, lambda kind, name: new.get(kind, {}).get(name, name), Format.URDF)
+        scope = scope_of(model, lambda part, name: new.get(part, {}).get(name, name), deep=False)
+        followed = follow_references(followed, scope, Format.URDF, sink)
+        update = {
+            "links": tuple(self._rename_if_new(link, links, sink) for link in followed.links),
+            "joints": tuple(self._rename_if_new(joint, joints, sink) for joint in followed.joints),
+        }
+        return followed.copy(**update)
+
+    def _rename_if_new(self, node: Named, names: dict[str, str], sink: DiagnosticSink) -> Named:
+        return self._rename(node, names[node.name], sink) if node.name in names else node
+
+    def _rename(self, node: Named, name: str, sink: DiagnosticSink) -> Named:
+        if not self.silent:
+            kind = type(node).__name__.lower()
+            message = f"{kind} {node.name!r} is called {name!r} in SDF"
+            sink.report(rules.RENAMED, message, node.location, found=node.name)
+            Keeper(sink, self.carriers).account(rules.RENAMED, message, node.location.at("@name"))
+        if self.carriers:
+            node = with_old_name(node, name)
+        return node.copy(name=name)
+
+
+def _is_reserved(name: str) -> bool:
+    return name == "world" or (name.startswith("__") and name.endswith("__")) or name != name.strip()
+
+
+def _legal_name(name: str, kind: str, links: Collection[str] = ()) -> str:
+    """The name to take instead of one that is reserved or that a link has."""
+    bare = name.strip()
+    # libsdformat drops blanks around names where it reads them, so a link "a " would lose the
+    # joints that name it.
+    return f"{bare.strip('_')}_{kind}" if bare == name or bare in links or _is_reserved(bare) else bare
+
+
+class NameJointsApart(ToUrdfPass):
+    """Give joints names that no link has.
+
+    Changes: a joint with the name of a link becomes `NAME_joint`, as it does where libsdformat reads such an SDF file;
+    it refuses a URDF in which they share a name. What names the joint follows.
+    Never touches: names that a URDF gave.
+    Diagnostics: `renamed`. The old name is carried.
+    """
+
+    name: ClassVar[str] = "name-joints-apart"
+
+    def run_model(self, model: Model, keeper: UrdfKeeper) -> Model:
+        """The model with one name for each link and joint."""
+        links = {link.name for link in model.links}
+        clashes = [joint.name for joint in model.joints if joint.name in links]
+        if keeper.back or not clashes:
+            return model
+        taken = links | {joint.name for joint in model.joints}
+        # Model.cc (Load) renames the joint of an SDF file before 1.7 in the same way, so the URDF has the
+        # name that Gazebo has for the joint of the source.
+        new = {name: reserve_name(f"{name}_joint", taken) for name in clashes}
+        names: Names = {("joint", old): made for old, made in new.items()}
+        joints = tuple(self._rename_joint(joint, new, keeper) if joint.name in new else joint for joint in model.joints)
+        return renamed(model.copy(joints=joints), names, Format.URDF)
+
+    def _rename_joint(self, joint: Joint, new: dict[str, str], keeper: UrdfKeeper) -> Joint:
+        message = f"joint {joint.name!r} is called {new[joint.name]!r} in URDF: a link has its name"
+        keeper.sink.report(rules.RENAMED, message, joint.location, found=joint.name)
+        keeper.account(rules.RENAMED, message, joint.location.at("@name"), 1)
+        return with_old_name(joint, new[joint.name]) if self.carriers else joint

@@ -12,13 +12,17 @@ from collections.abc import Mapping, Sequence
 from collections.abc import Set as AbstractSet
 from contextlib import suppress
 from dataclasses import replace
+from typing import ClassVar
 
+from twinform.diagnostics import DiagnosticSink, Fate, rules
+from twinform.diagnostics.rules import STALE_CARRIER
 from twinform.ir import Format, Inertia, Inertial, Link, Model, Pose
 from twinform.ir.frames import FrameError, FrameGraph
 from twinform.ir.node import Vector3
 from twinform.ir.solids import ELEMENTS, ORIGIN, Solid, Symmetric, combined, placed, tensor, turned, with_mass
 from twinform.ir.verify.verify_bodies import inertia_matrix, is_plain
-from twinform.passes.carriers.annotations import find_annotation, with_annotation, without_annotation
+from twinform.passes.carriers.annotations import came_from, find_annotation, with_annotation, without_annotation
+from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.inertia.physical_consistency import (
     clearances,
     has_mass,
@@ -27,7 +31,7 @@ from twinform.passes.inertia.physical_consistency import (
     rounding_loss,
 )
 from twinform.passes.shared.gazebo_tags import lumped_links
-from twinform.passes.shared.link_shapes import body_of
+from twinform.passes.shared.link_shapes import body_of, write_solid
 from twinform.schemas import format_value, parse_value
 
 _MARGIN = 1e-6
@@ -157,3 +161,103 @@ def without_share(inertial: Inertial) -> Inertial | None:
     pose = moved if found.get("xyz") else inertial.pose
     inertia = (inertial.inertia or Inertia.unchecked()).copy(**old)
     return without_annotation(inertial, SHARED).copy(inertia=inertia, pose=pose)
+
+
+class ShareInertias(ModelPass):
+    """Make inertias possible that no body has, with what links have that are fixed to theirs.
+
+    Changes: 1. the inertia of a link that libsdformat would refuse in SDF, and takes in URDF, where fixed links are one
+    body, becomes the nearest that a body can have; another link of that body has as much less. 2. Where no other has
+    enough, the link and as many others as it takes keep their masses, at the center of them all, and each has as much
+    of the inertia that they have together as it has of their mass. The body is what it was.
+    Never touches: a body that is impossible as a whole.
+    Diagnostics: `shared-inertia`; the ledger has each link. The old center and inertia are carried.
+    """
+
+    name: ClassVar[str] = "share-inertias"
+    carriers: bool = True
+
+    def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
+        """The model with inertias that libsdformat takes."""
+        # Such a URDF was never refused as SDF, and an edit that made an inertia impossible stands
+        # as it is written.
+        if came_from(model, Format.SDF):
+            return model
+        found = shared_inertias(model)
+        if not found:
+            return model
+        return model.copy(links=tuple(self._share(link, found, sink) for link in model.links))
+
+    def _share(self, link: Link, found: dict[str, Solid], sink: DiagnosticSink) -> Link:
+        written = link.inertial
+        if written is None or link.name not in found:
+            return link
+        made, old = write_solid(written, found[link.name]), written.pose or Pose.unchecked()
+        moved = found[link.name].center != (old.xyz or ORIGIN)
+        made = made if moved else made.copy(pose=written.pose)
+        what = "center of mass and inertia" if moved else "inertia"
+        message = f"link {link.name!r} has another {what} in SDF, and with the links that are fixed to it the same"
+        sink.report(rules.SHARED_INERTIA, message, written.location, found=link.name)
+        where = written.location
+        sink.account(Fate.APPROXIMATED, rules.SHARED_INERTIA, message, where.at("inertia"), len(ELEMENTS))
+        if moved and old.xyz:
+            sink.account(Fate.APPROXIMATED, rules.SHARED_INERTIA, message, where.at("origin/@xyz"))
+        return link.copy(inertial=with_share(made, written) if self.carriers else made)
+
+
+_CLOSE = 1e-9
+"""How far numbers may be apart that were computed from the same ones: in m, and relative to the largest."""
+
+
+class RestoreInertias(ModelPass):
+    """Give links the inertias that they had before they were shared with links that are fixed to them.
+
+    Changes: all annotated inertias, if the old ones would be shared again just so.
+    Never touches: any of them once masses, places or joints were edited so that another share would come out.
+    Diagnostics: `stale-carrier` for these.
+    """
+
+    name: ClassVar[str] = "restore-inertias"
+
+    def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
+        """The model with its old inertias."""
+        old = {
+            link.name: inertial
+            for link in model.links
+            if link.inertial is not None and (inertial := without_share(link.inertial)) is not None
+        }
+        if not old:
+            return model
+        restored = _with_inertials(model, old)
+        shared, graph = shared_inertias(restored), FrameGraph(model)
+        now = {link.name: body_of(link, graph, Format.URDF) for link in model.links if link.name in old}
+        # Proved by repetition: the old inertias come back if sharing them would give the numbers of
+        # the file again.
+        if shared.keys() == old.keys() and all(_are_close(shared[name], now[name]) for name in old):
+            return restored
+        for link in model.links:
+            if link.name in old and link.inertial:
+                message = f"the inertia of link {link.name!r} stays: the body that it is a part of was edited"
+                sink.report(STALE_CARRIER, message, link.inertial.location, found=link.name)
+        bare = {
+            link.name: without_annotation(link.inertial, SHARED)
+            for link in model.links
+            if link.inertial and link.name in old
+        }
+        return _with_inertials(model, bare)
+
+
+def _with_inertials(model: Model, inertials: dict[str, Inertial]) -> Model:
+    links = (link.copy(inertial=inertials[link.name]) if link.name in inertials else link for link in model.links)
+    return model.copy(links=tuple(links))
+
+
+def _are_close(one: Solid, other: Solid) -> bool:
+    return all(
+        math.isclose(a, b, rel_tol=0, abs_tol=_CLOSE * size)
+        for there, here, size in (
+            (one.center, other.center, max(1.0, *map(abs, one.center))),
+            (one.inertia, other.inertia, max(map(abs, one.inertia))),
+        )
+        for a, b in zip(there, here, strict=True)
+    )

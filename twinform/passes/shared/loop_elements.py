@@ -18,9 +18,8 @@ from twinform.ir.joint import JointType
 from twinform.ir.node import Vector3
 from twinform.ir.transform import Transform, rounded
 from twinform.passes.carriers.annotations import EXTENSION, find_annotation, with_annotation, without_annotation
-from twinform.passes.shared.drake_joints import clark_name
 from twinform.passes.shared.poses import offset_attributes, read_offset, read_vector
-from twinform.schemas import format_value
+from twinform.schemas import clark_name, format_value
 
 _TYPES: Mapping[str, JointType] = {
     "ball": "ball",

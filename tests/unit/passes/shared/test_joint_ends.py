@@ -11,7 +11,7 @@ from twinform.ir import Axis, Joint, Link, Mimic, Model, Pose
 from twinform.ir.frames import FrameGraph
 from twinform.ir.node import Vector3
 from twinform.passes.carriers.annotations import annotate_synthesized, find_annotation, with_annotation
-from twinform.passes.legalise.to_sdf.fold_gearboxes import FoldGearboxes
+from twinform.passes.legalise.gearboxes import FoldGearboxes
 from twinform.passes.shared.joint_ends import GEARED, Relation, UngearedError, relation
 
 ROBOT = """<sdf version='1.11'><model name='m'><link name='body'/><link name='motor'/>

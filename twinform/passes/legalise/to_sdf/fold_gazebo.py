@@ -13,7 +13,7 @@ from twinform.passes.carriers.carriers import DANGLING, OVERRULED, SECOND, Attri
 from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.legalise.changed_names import with_look
 from twinform.passes.legalise.folded_parts import FoldedPart, folded_part
-from twinform.passes.legalise.to_sdf.free_links import are_at_one_place, placing_frames
+from twinform.passes.legalise.free_links import are_at_one_place, placing_frames
 from twinform.passes.legalise.to_sdf.gazebo_fields import (
     REPLACING,
     merge,

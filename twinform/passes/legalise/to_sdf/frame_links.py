@@ -17,7 +17,7 @@ from twinform.passes.carriers.annotations import (
 )
 from twinform.passes.carriers.carriers import Keeper, carry, is_ours, pack, to_element
 from twinform.passes.framework.pass_base import ModelPass
-from twinform.passes.legalise.to_sdf.name_shapes import name_all
+from twinform.passes.legalise.shape_names import name_all
 from twinform.passes.legalise.to_sdf.restore_joints import without_reversals
 from twinform.passes.shared.gazebo_tags import FLAGS, flag_tags
 from twinform.passes.shared.poses import FRAME, LINK

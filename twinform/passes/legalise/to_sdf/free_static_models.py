@@ -10,7 +10,7 @@ from twinform.ir.frames import WORLD
 from twinform.passes.carriers.annotations import find_annotation, is_annotation
 from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.legalise.changed_names import scoped_name, scopes_in
-from twinform.passes.legalise.to_sdf.free_links import is_static
+from twinform.passes.legalise.free_links import is_static
 from twinform.passes.shared.poses import NESTED
 
 

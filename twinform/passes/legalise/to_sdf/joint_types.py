@@ -12,7 +12,7 @@ from twinform.passes.carriers.annotations import annotate_synthesized, came_from
 from twinform.passes.carriers.carriers import NAMESPACE, Keeper, carry, to_element
 from twinform.passes.carriers.token_mass import TOKEN
 from twinform.passes.framework.pass_base import ModelPass
-from twinform.passes.legalise.to_sdf.free_links import links_in_static_models, needs_no_joint
+from twinform.passes.legalise.free_links import links_in_static_models, needs_no_joint
 from twinform.passes.legalise.urdf_pieces import OF_AN_AXIS
 from twinform.passes.shared.nodes import reserve_name
 from twinform.schemas import format_value

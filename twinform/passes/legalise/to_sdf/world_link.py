@@ -7,7 +7,7 @@ from twinform.ir import Joint, Link, Model, Opaque, count_parts
 from twinform.passes.carriers.annotations import find_annotation
 from twinform.passes.carriers.carriers import Keeper, carry, is_carrier, to_element, unpack
 from twinform.passes.framework.pass_base import ModelPass
-from twinform.passes.legalise.to_sdf.free_links import links_in_static_models, needs_no_joint
+from twinform.passes.legalise.free_links import links_in_static_models, needs_no_joint
 from twinform.passes.shared.poses import BODY
 
 

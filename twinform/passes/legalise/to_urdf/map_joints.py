@@ -8,10 +8,10 @@ from twinform.diagnostics import Fate, rules
 from twinform.ir import Axis, Joint, Limit, Mimic, Model, Node
 from twinform.ir.defaults import UNLIMITED, multiplier
 from twinform.passes.carriers.annotations import CONTINUOUS, MIMIC, find_annotation
+from twinform.passes.legalise.drake_joints import DRAKE, DRAKE_TYPES
 from twinform.passes.legalise.to_urdf.remainder import urdf_row
 from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
 from twinform.passes.legalise.urdf_pieces import BALLS
-from twinform.passes.shared.drake_joints import DRAKE, DRAKE_TYPES
 from twinform.passes.shared.nodes import text_piece
 from twinform.request_options import UrdfVersion
 from twinform.schemas import format_value

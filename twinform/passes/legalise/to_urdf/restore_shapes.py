@@ -8,7 +8,7 @@ from twinform.passes.carriers.annotations import came_from, find_annotation, wit
 from twinform.passes.carriers.token_mass import MOMENTS, UNSAID, has_token_inertia, has_token_mass, is_token
 from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.legalise.changed_names import NAME
-from twinform.passes.legalise.to_sdf.name_shapes import UNNAMED
+from twinform.passes.legalise.shape_names import UNNAMED
 
 Shape = TypeVar("Shape", Visual, Collision)
 

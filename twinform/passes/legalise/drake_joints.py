@@ -1,4 +1,4 @@
-"""Reading Drake's own joints of URDF, which connect links like others."""
+"""Drake's own joints of URDF (`<drake:joint>`): read as joints like others, and written as such again."""
 
 from dataclasses import replace
 from typing import ClassVar
@@ -10,10 +10,48 @@ from twinform.ir import Axis, Element, Format, Joint, Model, Opaque, Pose
 from twinform.ir.defaults import direction
 from twinform.ir.foreign_joints import ForeignJoint, foreign_joints, usual_word
 from twinform.ir.frames import MODEL, WORLD
-from twinform.passes.carriers.annotations import came_from, with_annotation
+from twinform.ir.node import Vector3
+from twinform.passes.carriers.annotations import came_from, find_annotation, with_annotation, without_annotation
+from twinform.passes.carriers.carriers import to_element
 from twinform.passes.framework.pass_base import ModelPass
-from twinform.passes.shared.drake_joints import DRAKE, DRAKE_TYPES, PITCH, UNIVERSAL_AXES
-from twinform.schemas import Context, element_xml, parse_value, reader, table
+from twinform.schemas import Context, clark_name, element_xml, format_value, parse_value, reader, table
+
+DRAKE = "drake"
+"""The annotation on a joint of SDF that URDF has in a `<drake:joint>`."""
+DRAKE_TYPES = frozenset({"ball", "planar", "screw", "universal"})
+PITCH = "drake:screw_thread_pitch"
+"""The element with the pitch of a screw; m per turn."""
+# `detail_urdf_parser.cc`, ParseJoint: the axis is not used; `UniversalJoint` turns about x of the
+# frame, then about y.
+UNIVERSAL_AXES: tuple[Vector3, Vector3] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0))
+
+
+def fit_for_drake(joint: Joint) -> Joint | None:
+    """A joint of SDF that was Drake's, with what URDF can say of it; None where Drake could not say it."""
+    if find_annotation(joint, DRAKE) is None or joint.type not in DRAKE_TYPES:
+        return None
+    if joint.type == "universal":
+        return _fit_universal(joint)
+    if joint.type != "screw":
+        return joint
+    if joint.screw_thread_pitch is None or joint.thread_pitch is not None or joint.axis2 is not None:
+        return None
+    pitch = Element.unchecked(name=clark_name(PITCH), attributes=(("value", format_value(joint.screw_thread_pitch)),))
+    return joint.copy(screw_thread_pitch=None, opaque=(*joint.opaque, Opaque.unchecked(element=pitch)))
+
+
+def _fit_universal(joint: Joint) -> Joint | None:
+    axes = (joint.axis or Axis.unchecked(), joint.axis2 or Axis.unchecked())
+    bare = [axis.copy(xyz=None) for axis in axes]
+    plain = bare[0].mimic is None and bare[0].limit is None and not bare[0].opaque
+    if tuple(axis.xyz for axis in axes) != UNIVERSAL_AXES or bare[0] != bare[1] or not plain:
+        return None
+    return joint.copy(axis=None if bare[0] == Axis.unchecked() else bare[0], axis2=None)
+
+
+def drake_element(joint: Joint) -> Element:
+    """The `<drake:joint>` of a joint of URDF."""
+    return to_element(without_annotation(joint, DRAKE), "joint", "urdf").copy(name=clark_name("drake:joint"))
 
 
 class ReadDrakeJoints(ModelPass):
@@ -104,3 +142,24 @@ def _as_universal(joint: Joint, sink: DiagnosticSink) -> Joint:
         sink.account(Fate.DROPPED, rules.URDF_ONLY, message, joint.location.at("axis"), 2)
     first, second = (axis.copy(xyz=xyz, opaque=()) for xyz in UNIVERSAL_AXES)
     return joint.copy(axis=first, axis2=second)
+
+
+class WriteDrakeJoints(ModelPass):
+    """Write joints that were `<drake:joint>` as such.
+
+    Changes: an annotated joint of a type that Drake has is an element of the robot.
+    Never touches: one with another type by now.
+    Diagnostics: none.
+    """
+
+    name: ClassVar[str] = "write-drake-joints"
+
+    def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
+        """The model with the elements of Drake."""
+        own = [joint for joint in model.joints if find_annotation(joint, DRAKE) and joint.type in DRAKE_TYPES]
+        if not own or sink.has_errors:
+            return model
+        elements = (Opaque.unchecked(element=drake_element(joint), source=joint.source) for joint in own)
+        names = {joint.name for joint in own}
+        joints = tuple(joint for joint in model.joints if joint.name not in names)
+        return model.copy(joints=joints, opaque=(*model.opaque, *elements))

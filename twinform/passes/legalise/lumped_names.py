@@ -1,12 +1,13 @@
-"""Renaming lumped collisions in contact sensors and plugins to the unlumped ones."""
+"""Names of lumped collisions in contact sensors and plugins, which name the collisions that are there in SDF."""
 
 from typing import ClassVar
 
 from twinform.diagnostics import DiagnosticSink, Fate, Source, rules
-from twinform.ir import Collision, GazeboExtension, Model, replace_fields
-from twinform.passes.carriers.lumped_names import Followed, followed, mentions_collisions
+from twinform.diagnostics.rules import STALE_CARRIER
+from twinform.ir import Collision, Element, GazeboExtension, Model, replace_fields
+from twinform.passes.carriers.lumped_names import Followed, followed, has_annotations, mentions_collisions, restored
 from twinform.passes.framework.pass_base import ModelPass
-from twinform.passes.legalise.to_sdf.name_shapes import name_all
+from twinform.passes.legalise.shape_names import name_all
 from twinform.passes.structure.tag_shapes import seen_shapes
 
 
@@ -85,3 +86,30 @@ def _is_one_body(model: Model, reference: str, link: str) -> bool:
             return False
         link = above.pop(link) or ""  # joints may make a loop
     return True
+
+
+class RestoreLumpedNames(ModelPass):
+    """Name collisions in `<gazebo>` elements as libsdformat lumps them, where the source did.
+
+    Changes: a text beside which an annotation has the original.
+    Never touches: a text that was edited since, or whose old name does not mean that collision any more.
+    Diagnostics: `stale-carrier` for these.
+    """
+
+    name: ClassVar[str] = "restore-lumped-names"
+
+    def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
+        """The model with the names of the source."""
+        if not has_annotations(model):
+            return model
+        names, stale = names_of_libsdformat(model), list[Element]()
+
+        def restore(extension: GazeboExtension) -> GazeboExtension:
+            content = tuple(restored(each, names, stale) for each in extension.content)
+            return extension.copy(content=content)
+
+        model = model.copy(extensions=tuple(map(restore, model.extensions)))
+        for annotation in stale:
+            message = f"{annotation.get('instead_of')!r} was called {annotation.text!r}, which now names something else"
+            sink.report(STALE_CARRIER, message, annotation.location, found=annotation.text)
+        return model

@@ -1,0 +1,108 @@
+"""Links that need no joint in SDF, and the frames by which libsdformat finds free ones."""
+
+from collections.abc import Container, Iterable, Iterator, Mapping
+from typing import ClassVar
+
+from twinform.ir import Element, Format, Frame, GazeboExtension, Joint, Model
+from twinform.ir.frames import WORLD, FrameError, FrameGraph
+from twinform.ir.transform import Transform
+from twinform.passes.carriers.annotations import annotate_synthesized, came_from, find_annotation, is_synthesized
+from twinform.passes.carriers.carriers import to_element
+from twinform.passes.legalise.changed_names import scoped_name
+from twinform.passes.legalise.to_sdf.frame_links import frame_as_before
+from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
+from twinform.passes.shared.poses import FRAME, NESTED
+
+_CLOSE = 1e-9
+"""The relative tolerance for numbers that were written from the same value."""
+
+
+def links_in_static_models(model: Model) -> frozenset[str]:
+    """The links of a model that is static in the SDF that it came from, or of the static models that it has there.
+
+    A static model that does not say so keeps its joints to the world: nobody makes them anew, with their frames and all
+    that is set for them.
+    """
+    if model.static:
+        return frozenset(link.name for link in model.links if came_from(model, Format.SDF))
+    frames = (*model.links, *model.frames)  # a frame of SDF is a link at first
+    scopes = tuple(f"{scoped_name(frame)}::" for frame in frames if is_static(find_annotation(frame, NESTED)))
+    return frozenset(link.name for link in model.links if scoped_name(link).startswith(scopes))
+
+
+def needs_no_joint(joint: Joint, held: frozenset[str]) -> bool:
+    """Whether a joint is left out in SDF; `held` are the links of static models."""
+    if joint.type == "floating":
+        return True
+    return joint.type == "fixed" and joint.parent == WORLD and joint.child in held and is_synthesized(joint)
+
+
+def placing_frames(model: Model, joints: Iterable[Joint]) -> Mapping[str, Frame]:
+    """A frame in `<gazebo>` for each floating joint of URDF, by its name; none where the links form no tree.
+
+    libsdformat writes no such joint, and still poses the link relative to it, so that it refuses the file without a
+    frame of that name: parser_urdf.cc, CreateLink.
+    """
+    children = {joint.child for joint in model.joints}
+    root = next((link.name for link in model.links if link.name not in children), "")
+    graph = FrameGraph(model)
+    try:
+        poses = {joint.name: graph.pose(joint.child or "", root).to_pose() for joint in joints}
+    except FrameError:
+        return {}
+    return {name: annotate_synthesized(Frame.unchecked(name=name, pose=pose)) for name, pose in poses.items()}
+
+
+def are_at_one_place(frame: Frame, other: Frame) -> bool:
+    """Whether the poses of two frames are equal within the precision of files."""
+    one, two = (Transform.from_pose(each.pose) for each in (frame, other))
+    numbers = zip((*one.translation, *one.rotation), (*two.translation, *two.rotation), strict=True)
+    return all(abs(a - b) <= _CLOSE * max(1.0, abs(a)) for a, b in numbers)
+
+
+def is_static(nested: Element | None) -> bool:
+    """Whether the annotation of a nested model says that it is static."""
+    static = nested.find("static") if nested else None
+    return static is not None and (static.text or "").strip() in {"true", "1"}
+
+
+class PlaceFreeLinks(ToUrdfPass):
+    """Say where Gazebo finds the links that hang from the first root by floating joints.
+
+    libsdformat writes no such joint, and still poses the link relative to it, so that it refuses the file. A frame by
+    the name of the joint, in a `<gazebo>` element, is what it looks for.
+    Changes: 1. each floating joint that a conversion synthesized gets such a frame, with the pose of the link; 2. what
+    was a frame by the name of a floating joint is none of the links but such a frame again: a `<gazebo>` for the joint
+    would set something in the link.
+    Never touches: floating joints of the source; a link from which another one hangs.
+    Diagnostics: none.
+    """
+
+    name: ClassVar[str] = "place-free-links"
+
+    def run_model(self, model: Model, keeper: UrdfKeeper) -> Model:
+        """The model with a frame for each synthesized floating joint, and those that others wrote."""
+        floating = [joint for joint in model.joints if joint.type == "floating"]
+        if not floating:
+            return model
+        written = {frame.name: frame for frame in _frames_of(model, {joint.name for joint in floating})}
+        # The frame is a second pose, and there is no way around it. The one of the joint counts;
+        # `stale-carrier` says where an edit has made the two differ.
+        frames = (*placing_frames(model, filter(is_synthesized, floating)).values(), *written.values())
+        extensions = (GazeboExtension.unchecked(content=(to_element(frame, "frame", "sdf"),)) for frame in frames)
+        return model.copy(
+            links=tuple(link for link in model.links if link.name not in written),
+            joints=tuple(joint for joint in model.joints if joint.child not in written),
+            extensions=(*model.extensions, *extensions),
+        )
+
+
+def _frames_of(model: Model, names: Container[str]) -> Iterator[Frame]:
+    """The frames with these names that became links, and from which nothing hangs."""
+    links = {link.name: link for link in model.links if link.name in names}
+    parents = {joint.parent for joint in model.joints}
+    for joint in filter(is_synthesized, model.joints):
+        link = links.get(joint.child or "")
+        annotation = find_annotation(link, FRAME) if link else None
+        if link and annotation and link.name not in parents:
+            yield frame_as_before(joint, link, annotation, joint.pose)
