@@ -13,7 +13,7 @@ from twinform.compiler.input.load_options import LoadOptions, unexpanded_name
 from twinform.compiler.input.mjcf.assets import AssetTable
 from twinform.compiler.input.mjcf.contact_masks import ContactMasks, touches_itself
 from twinform.compiler.input.mjcf.geom_solids import GeomSolids
-from twinform.compiler.input.mjcf.lower_bodies import TreeLowering, TreeParts
+from twinform.compiler.input.mjcf.lower_bodies import JOINTS, TreeLowering, TreeParts
 from twinform.compiler.input.mjcf.lower_equalities import followers, loop_of, lower_loop, places_beside_tree
 from twinform.compiler.input.mjcf.lower_geoms import GeomLowering
 from twinform.compiler.input.mjcf.lower_inertials import MassSettings, body_inertia, scale_of
@@ -21,7 +21,7 @@ from twinform.compiler.input.mjcf.lower_joints import efforts
 from twinform.compiler.input.mjcf.lower_lights import lower_light
 from twinform.compiler.input.mjcf.lower_option import lower_option
 from twinform.compiler.input.mjcf.lower_sensors import SiteSensor, by_site, lower_sensor
-from twinform.compiler.input.mjcf.names import name_mark, safe_name
+from twinform.compiler.input.mjcf.names import NameScope, name_mark, safe_name
 from twinform.compiler.input.mjcf.pieces import Piece, pose_of
 from twinform.compiler.input.mjcf.remainders import RemainderKeeper, in_sections, with_rest
 from twinform.compiler.input.mjcf.sections import Owners, Sections
@@ -36,6 +36,8 @@ from twinform.schemas import DEFAULT_SDF_VERSION, Context, XmlElement
 
 _MARK = Element.unchecked(name=ROOT)
 """What says that a model or world was read of MJCF, so that it is written as MJCF has it."""
+_NAMED = frozenset({"body", "site", *JOINTS})
+"""What becomes a link, frame or joint."""
 _MODEL = "model"
 """The name of a model in a file that has none."""
 
@@ -73,6 +75,8 @@ class FileLowering:
         bodies = [each for tree in self.trees for each in tree.bodies()]
         self.inertias = {each: body_inertia(each, settings, solids) for each in bodies}
         self.scale = scale_of(settings, [each.solid.mass for each in self.inertias.values()])
+        parts = (each.peek("name") for each in root.walk() if each.tag in _NAMED)
+        self.written_names = frozenset(each for each in parts if each)
         self.followers = followers(self.sections.inside("equality"))
         self.efforts = efforts(self.sections.inside("actuator"))
         self.numbers: dict[str, int] = {}
@@ -109,7 +113,10 @@ class FileLowering:
         )
 
     def _model(self, number: int, tree: Piece, name: str | None, taken: set[str]) -> Model:
-        lowering = TreeLowering(tree, self.geoms, self.keeper, self.inertias, self.scale, self.followers, self.efforts)
+        names = NameScope(self.written_names)
+        lowering = TreeLowering(
+            tree, self.geoms, self.keeper, self.inertias, self.scale, self.followers, self.efforts, names
+        )
         parts = lowering.lower()
         self._close_loops(number, lowering, parts)
         self._add_sensors(number, parts)

@@ -52,7 +52,7 @@ class TreeLowering:
     """Lowers the bodies of one tree, which become one model.
 
     `inertias` has the mass of each body, `followers` the equalities that are mimics by the names of their followers,
-    and `efforts` what actuators do to joints.
+    and `efforts` what actuators do to joints; `names` is new.
     """
 
     def __init__(
@@ -64,9 +64,10 @@ class TreeLowering:
         scale: float,
         followers: Mapping[str, tuple[Piece, JointFollowing]],
         efforts: Mapping[str, float],
+        names: NameScope,
     ) -> None:
         self.root = root
-        self.names = NameScope()
+        self.names = names
         self._geoms = geoms
         self._keeper = keeper
         self._inertias = inertias

@@ -4,6 +4,7 @@ In MJCF each kind of part has its own names, and parts may have none. In SDF lin
 their names. A changed name stands in `<tf:name>`, a made one in `<tf:made-name>`.
 """
 
+from collections.abc import Collection
 from typing import TypeVar
 
 from twinform.compiler.input.mjcf.pieces import Piece
@@ -17,9 +18,13 @@ AnyNode = TypeVar("AnyNode", bound=Node)
 
 
 class NameScope:
-    """The names of one model; parts that come first keep theirs."""
+    """The names of one model; parts that come first keep theirs.
 
-    def __init__(self) -> None:
+    No made name is one of those that are written anywhere in the file: the rest of the file refers to parts by these.
+    """
+
+    def __init__(self, written: Collection[str] = ()) -> None:
+        self._written = written
         self._taken = {WORLD}
         self._numbers: dict[str, int] = {}
         self._given: dict[Piece, str] = {}
@@ -27,7 +32,8 @@ class NameScope:
     def give(self, piece: Piece, unnamed: str, kind: str) -> str:
         """Name an element: as it is called, with its kind behind that where another part is called so, or `unnamed`."""
         wish = safe_name(piece.take("name") or unnamed)
-        self._given[piece] = self.make(f"{wish}_{kind}" if wish in self._taken else wish)
+        is_others = wish in self._taken or (piece.name is None and wish in self._written)
+        self._given[piece] = self.make(f"{wish}_{kind}") if is_others else self._reserve(wish)
         return self._given[piece]
 
     def of(self, piece: Piece) -> str:
@@ -36,6 +42,12 @@ class NameScope:
 
     def make(self, wish: str) -> str:
         """Return a new name for a part that no element stands for."""
+        made = self._reserve(wish)
+        while made in self._written:
+            made = self._reserve(wish)
+        return made
+
+    def _reserve(self, wish: str) -> str:
         return reserve_name(wish, self._taken, self._numbers)
 
     def marked(self, node: AnyNode, piece: Piece) -> AnyNode:

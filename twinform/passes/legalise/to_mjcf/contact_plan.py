@@ -111,9 +111,13 @@ class ContactPlan:
 
     @property
     def is_told_apart(self) -> bool:
-        """Whether links of a model touch by their bits, and only exclusions and the model keep them from it."""
+        """Whether links of a model touch by their bits, and only exclusions and the model keep them from it.
+
+        What is fixed to the world does not touch itself, whatever its bits are.
+        """
         apart = [links for links in self._groups.values() if not any(self._flagged[link] for link in links)]
-        return any(self.touch_by_bits(links) for links in apart)
+        moving = (links for links in apart if any(self._weld(link) != WORLD for link in links))
+        return any(self.touch_by_bits(links) for links in moving)
 
     @cached_property
     def excluded(self) -> tuple[Pair, ...]:

@@ -12,7 +12,7 @@ from twinform.ir import Collision, Frame, Joint, Link, Model, Node, Opaque, Worl
 from twinform.ir.frames import MODEL
 from twinform.ir.rewrite import census_of
 from twinform.ir.scopes import SCOPE
-from twinform.passes.carriers.annotations import is_synthesized, with_annotation
+from twinform.passes.carriers.annotations import MADE_NAME, find_annotation, is_synthesized, with_annotation
 from twinform.passes.carriers.carriers import NAMESPACE, bits_of_ours, is_carrier, is_ours, without_parts
 from twinform.passes.carriers.mjcf_texts import DOCUMENT, SEVERAL, bare_xml, text_element, text_name, xml_data
 from twinform.passes.carriers.partial_nodes import REST, is_bare, remainder
@@ -105,7 +105,9 @@ class _Texts:
     def _is_named_by_file(self, joint: Joint) -> bool:
         """Whether a fixed joint, which has no name in MJCF, is called as it is when the file is read."""
         body = self.context.written_bodies.get(joint.child or "", joint.child)
-        return is_synthesized(joint) or _own_name(joint) == f"{body}_fixed_joint"
+        made = find_annotation(joint, MADE_NAME)
+        is_made = made is not None and made.text == _own_name(joint)
+        return is_made or is_synthesized(joint) or _own_name(joint) == f"{body}_fixed_joint"
 
     def _add(self, kind: str, name: str, node: Node) -> None:
         """Add the text of a node, unless MJCF says all of it, and enter what it holds into the ledger."""
