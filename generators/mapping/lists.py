@@ -39,7 +39,7 @@ _SPECIAL = """\
 _PASSES = """\
 ## The passes
 
-What the notes call a pass is a class in `twinform/passes/legalise/to_sdf`, `to_urdf` or `sdf_versions`, whose docstring
+What the notes call a pass is a class in `twinform/passes/legalise` or `twinform/passes/sdf_versions`, whose docstring
 describes what it changes. `twinform convert FILE --print-pipeline` lists those that a file goes through, and
 `--dump-ir-after PASS` shows what one of them did.
 """

@@ -32,7 +32,7 @@ OTHERS = {
     "compiler/input/expand_xacro.py": "calls `read_bytes` of `compiler/input/parsing.py`",
     "compiler/input/mjcf/attach_models.py": "calls `read_bytes` of `compiler/input/parsing.py`",
     "compiler/input/mjcf/splice_includes.py": "calls `read_bytes` of `compiler/input/parsing.py`",
-    "compiler/input/xacro_parts.py": "calls `read_bytes` of `compiler/input/parsing.py`",
+    "compiler/input/included_parts.py": "calls `read_bytes` of `compiler/input/parsing.py`",
     "compiler/input/xacro/channel.py": NOWHERE,
     "compiler/option_docstrings.py": "modules of the package, whose docstrings it generates",
     "compiler/observing.py": "a file that is being opened anyway",

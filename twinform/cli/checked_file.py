@@ -193,10 +193,10 @@ class CheckTask:
         if may_be_mjcf(self.name):
             if self.named:
                 return self._look_at_robot()
-            from twinform.compiler.input.mjcf_parts import check_mjcf_part  # noqa: PLC0415 - as below
+            from twinform.compiler.input.included_parts import check_mjcf_part  # noqa: PLC0415 - as below
 
             return check_mjcf_part(Path(self.name), self.load_options)
-        from twinform.compiler.input.xacro_parts import check_part  # noqa: PLC0415 - few files are parts
+        from twinform.compiler.input.included_parts import check_part  # noqa: PLC0415 - few files are parts
 
         return check_part(Path(self.source.name), self.load_options)
 

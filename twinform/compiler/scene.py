@@ -231,8 +231,8 @@ def _choose_passes(document: Document) -> tuple[Pass, ...]:
         from twinform.passes.sdf_versions import raise_words  # noqa: PLC0415 - the other format does not need it
 
         return raise_words(document.version)
+    from twinform.passes.legalise.shared_materials import SharedMaterials  # noqa: PLC0415 - see above
     from twinform.passes.legalise.to_sdf.fold_gazebo import FoldGazebo  # noqa: PLC0415 - see above
-    from twinform.passes.legalise.to_sdf.shared_materials import SharedMaterials  # noqa: PLC0415 - see above
 
     return (SharedMaterials.unchecked(carriers=False), FoldGazebo.unchecked(carriers=False))
 

@@ -12,7 +12,7 @@ from tests.unit.passes.framework.conftest import write_distribution
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document
 from twinform.passes import Pass, registered_passes
-from twinform.passes.legalise.to_sdf.root_masses import UrdfBodies
+from twinform.passes.legalise.unwritten_masses import UrdfBodies
 
 from .conftest import GOOD, Run
 

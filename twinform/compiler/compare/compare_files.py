@@ -50,8 +50,7 @@ from twinform.passes.legalise.to_sdf.sequence import to_sdf
 from twinform.passes.legalise.to_urdf.restore_links import without_loose_floating
 from twinform.passes.legalise.to_urdf.select_model import Selector
 from twinform.passes.sdf_versions import raise_words
-from twinform.passes.sdf_versions.fold_capsules import FoldCapsules
-from twinform.passes.sdf_versions.fold_shape_meshes import FoldShapeMeshes
+from twinform.passes.sdf_versions.replace_shapes import FoldCapsules, FoldShapeMeshes
 from twinform.passes.shared.candidates import name_once_expanded, wanted_includes
 from twinform.schemas import versions_of
 

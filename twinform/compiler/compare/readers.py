@@ -13,7 +13,7 @@ from twinform.compiler.compare.comparison import Difference, DifferenceSeverity
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document
 from twinform.passes.carriers.carriers import without_bodies_for_gazebo, without_ours
-from twinform.passes.sdf_versions.fold_capsules import fold_capsules
+from twinform.passes.sdf_versions.replace_shapes import fold_capsules
 
 
 class ComparingReader(StrEnum):

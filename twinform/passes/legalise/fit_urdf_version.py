@@ -15,7 +15,7 @@ from twinform.ir.versions import Version, parse_version
 from twinform.ir.visual import Collision, Visual
 from twinform.passes.carriers.carriers import NAMESPACE, PREFIX, Keeper, has_ours
 from twinform.passes.framework.pass_base import Pass
-from twinform.passes.sdf_versions.fold_capsules import fold_capsules
+from twinform.passes.sdf_versions.replace_shapes import fold_capsules
 from twinform.passes.shared.poses import in_radians
 from twinform.passes.shared.replaced_shapes import AnyPart, ShapeReplacer, with_ends
 from twinform.request_options import UrdfVersion

@@ -1,14 +1,24 @@
-"""Links that need no joint in SDF, and the frames by which libsdformat finds free ones."""
+"""Links that need no joint in SDF: free ones, with frames that place them, and those in static models."""
 
 from collections.abc import Container, Iterable, Iterator, Mapping
+from collections.abc import Set as AbstractSet
 from typing import ClassVar
 
-from twinform.ir import Element, Format, Frame, GazeboExtension, Joint, Model
+from twinform.diagnostics import DiagnosticSink
+from twinform.diagnostics.rules import STALE_CARRIER
+from twinform.ir import Element, Format, Frame, GazeboExtension, Joint, Link, Model, Opaque
 from twinform.ir.frames import WORLD, FrameError, FrameGraph
 from twinform.ir.transform import Transform
-from twinform.passes.carriers.annotations import annotate_synthesized, came_from, find_annotation, is_synthesized
+from twinform.passes.carriers.annotations import (
+    annotate_synthesized,
+    came_from,
+    find_annotation,
+    is_annotation,
+    is_synthesized,
+)
 from twinform.passes.carriers.carriers import to_element
-from twinform.passes.legalise.changed_names import scoped_name
+from twinform.passes.framework.pass_base import ModelPass
+from twinform.passes.legalise.changed_names import scoped_name, scopes_in
 from twinform.passes.legalise.to_sdf.frame_links import frame_as_before
 from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
 from twinform.passes.shared.poses import FRAME, NESTED
@@ -106,3 +116,53 @@ def _frames_of(model: Model, names: Container[str]) -> Iterator[Frame]:
         annotation = find_annotation(link, FRAME) if link else None
         if link and annotation and link.name not in parents:
             yield frame_as_before(joint, link, annotation, joint.pose)
+
+
+class FreeStaticModels(ModelPass):
+    """Let go of the static models of SDF that the URDF does not hold to the world.
+
+    Changes: the annotation of a nested model says no more that it is static, if one of its links hangs from something
+    else than the world or one of its own, by a joint that moves or by none.
+    Never touches: nested models in a static one.
+    Diagnostics: `stale-carrier`.
+    """
+
+    name: ClassVar[str] = "free-static-models"
+
+    def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
+        """The model whose nested static models are held."""
+        static = [link for link in model.links if is_static(find_annotation(link, NESTED))]
+        if not static or model.static:
+            return model
+        free = _free_models(model, frozenset(map(scoped_name, static)))
+        for link in static:
+            if scoped_name(link) in free:
+                message = f"model {scoped_name(link)!r} is not static any more: the joints of the URDF let it move"
+                sink.report(STALE_CARRIER, message, link.location, found=link.name)
+        links = tuple(_without_static(link) if scoped_name(link) in free else link for link in model.links)
+        return model.copy(links=links)
+
+
+def _free_models(model: Model, static: AbstractSet[str]) -> AbstractSet[str]:
+    """Return the static nested models that have a link which neither the world nor the model itself holds."""
+    above = {joint.child: joint for joint in model.joints}
+    names = {link.name: scoped_name(link) for link in model.links}
+    free = set[str]()
+    for link, scoped in names.items():
+        joint = above.get(link)
+        if joint is None or joint.type != "fixed" or joint.parent != WORLD:
+            # A joint between two links of one model is its own affair, so only the models that the
+            # parent is not in are let go.
+            free |= (scopes_in(scoped) & static) - scopes_in(names.get((joint and joint.parent) or "", ""))
+    return free
+
+
+def _without_static(link: Link) -> Link:
+    opaque = tuple(_without_static_element(part) if is_annotation(part, NESTED) else part for part in link.opaque)
+    return link.copy(opaque=opaque)
+
+
+def _without_static_element(part: Opaque) -> Opaque:
+    element = part.element or Element.unchecked(name="")
+    children = tuple(child for child in element.children if child.name != "static")
+    return part.copy(element=element.copy(children=children))

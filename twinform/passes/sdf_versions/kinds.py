@@ -10,8 +10,6 @@ if TYPE_CHECKING:
     from twinform.passes.sdf_versions.connect_links import ConnectLinks
     from twinform.passes.sdf_versions.fit_joint_types import FitJointTypes
     from twinform.passes.sdf_versions.flatten_nested import FlattenNested
-    from twinform.passes.sdf_versions.fold_capsules import FoldCapsules
-    from twinform.passes.sdf_versions.fold_shape_meshes import FoldShapeMeshes
     from twinform.passes.sdf_versions.leave_out import LeaveOut
     from twinform.passes.sdf_versions.move_time_steps import MoveTimeSteps
     from twinform.passes.sdf_versions.move_world_fields import MoveWorldFields
@@ -22,7 +20,7 @@ if TYPE_CHECKING:
     from twinform.passes.sdf_versions.place_absolutely import PlaceAbsolutely
     from twinform.passes.sdf_versions.place_inertials import PlaceInertials
     from twinform.passes.sdf_versions.rename_states import RenameStates
-    from twinform.passes.sdf_versions.replace_shapes import ReplaceShapes
+    from twinform.passes.sdf_versions.replace_shapes import FoldCapsules, FoldShapeMeshes, ReplaceShapes
     from twinform.passes.sdf_versions.spread_imu_noise import GatherImuNoise, SpreadImuNoise
     from twinform.passes.sdf_versions.turn_axes import TurnAxes
     from twinform.passes.sdf_versions.write_inertias import WriteInertias
@@ -39,8 +37,6 @@ else:
             "twinform.passes.sdf_versions.connect_links": "ConnectLinks",
             "twinform.passes.sdf_versions.fit_joint_types": "FitJointTypes",
             "twinform.passes.sdf_versions.flatten_nested": "FlattenNested",
-            "twinform.passes.sdf_versions.fold_capsules": "FoldCapsules",
-            "twinform.passes.sdf_versions.fold_shape_meshes": "FoldShapeMeshes",
             "twinform.passes.sdf_versions.leave_out": "LeaveOut",
             "twinform.passes.sdf_versions.move_time_steps": "MoveTimeSteps",
             "twinform.passes.sdf_versions.move_world_fields": "MoveWorldFields",
@@ -51,7 +47,7 @@ else:
             "twinform.passes.sdf_versions.place_absolutely": "PlaceAbsolutely",
             "twinform.passes.sdf_versions.place_inertials": "PlaceInertials",
             "twinform.passes.sdf_versions.rename_states": "RenameStates",
-            "twinform.passes.sdf_versions.replace_shapes": "ReplaceShapes",
+            "twinform.passes.sdf_versions.replace_shapes": "FoldCapsules FoldShapeMeshes ReplaceShapes",
             "twinform.passes.sdf_versions.spread_imu_noise": "GatherImuNoise SpreadImuNoise",
             "twinform.passes.sdf_versions.turn_axes": "TurnAxes",
             "twinform.passes.sdf_versions.write_inertias": "WriteInertias",

@@ -9,9 +9,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import twinform
+from tests.mesh_folder import MeshFolder
 from tests.profile import examples
 from twinform.diagnostics import DiagnosticSink
-from twinform.file_access import Readable
 from twinform.ir import Collision, Document, Geometry, Link, Mesh, Node, Visual, rewrite
 from twinform.ir.verify import verify
 from twinform.passes import parse_pipeline
@@ -22,31 +22,12 @@ trimesh: Any = importlib.import_module("trimesh")
 PASSES = parse_pipeline("simplify-collisions{how=[primitive,hull]},decimate-visuals{share=0.3},convert-meshes{to=obj}")
 
 
-class Folder:
-    """Meshes beside no document."""
-
-    def __init__(self, folder: Path) -> None:
-        self.folder = folder
-        self.readable = Readable.of(folder / "model.urdf")
-
-    def find(self, uri: str) -> Path:
-        return self.folder / uri
-
-    def holder(self, folder: Path, kind: str) -> str | None:
-        del folder, kind
-        return None
-
-    def address(self, file: Path) -> str | None:
-        del file
-        return None
-
-
 @pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Folder:
+def folder(tmp_path_factory: pytest.TempPathFactory) -> MeshFolder:
     folder = tmp_path_factory.mktemp("meshes")
     trimesh.creation.icosphere(1, 0.3).export(folder / "a.stl")
     trimesh.creation.cone(0.2, 0.5, sections=8).export(folder / "b.ply")
-    return Folder(folder)
+    return MeshFolder(folder)
 
 
 def _with_meshes(document: Document) -> Document:
@@ -67,14 +48,14 @@ def _bones(document: Document) -> Document:
 @pytest.mark.slow
 @examples(0.3)
 @given(st.one_of(strategies.robots(), strategies.sdf_models()))
-def test_only_shapes_change(folder: Folder, drawn: Document) -> None:
+def test_only_shapes_change(folder: MeshFolder, drawn: Document) -> None:
     document, sink = _with_meshes(drawn), DiagnosticSink()
     made = PASSES.with_files(folder).run(document, sink, verify=verify)
     assert _bones(made) == _bones(document)
 
 
 @pytest.mark.skipif(not oracles.available("drake"), reason="Drake is not installed")
-def test_drake_sees_the_same_robot(folder: Folder, tmp_path: Path) -> None:
+def test_drake_sees_the_same_robot(folder: MeshFolder, tmp_path: Path) -> None:
     document = _with_meshes(twinform.load(_ROVER))
     made = PASSES.with_files(folder).run(document, DiagnosticSink())
     assert made != document

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from twinform.file_access import Readable
+from tests.mesh_folder import MeshFolder
 from twinform.installation import install_command
 from twinform.ir import Element, Mesh, Opaque
 from twinform.ir.geometry import Box
@@ -21,23 +21,6 @@ from twinform.passes.shared.mesh_solids import MeshError, Meshes
 trimesh: Any = importlib.import_module("trimesh")
 _EXPORTED = ("stl", "obj", "dae", "ply", "off", "glb")
 FORMATS = (*_EXPORTED, "msh")
-
-
-class Folder:
-    def __init__(self, folder: Path) -> None:
-        self.folder = folder
-        self.readable = Readable.of(folder / "model.urdf")
-
-    def find(self, uri: str) -> Path:
-        return self.folder / uri
-
-    def holder(self, folder: Path, kind: str) -> str | None:
-        del folder, kind
-        return None
-
-    def address(self, file: Path) -> str | None:
-        del file
-        return None
 
 
 @pytest.fixture(scope="module")
@@ -74,7 +57,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def meshes(folder: Path, *, hull: bool = False) -> Meshes:
-    return Meshes(Folder(folder), hull)
+    return Meshes(MeshFolder(folder), hull)
 
 
 def same(one: Solid, other: Solid, exact: float = 1e-12) -> bool:
@@ -180,7 +163,7 @@ def test_without_the_library_it_reports_what_to_install(folder: Path, monkeypatc
 @pytest.mark.parametrize("away", [0.0, 1e3, 1e6, 1e8])
 def test_a_mesh_far_from_the_origin_turns_as_one_that_is_near(tmp_path: Path, away: float):
     trimesh.creation.box(bounds=[(away, 0, 0), (away + 1, 2, 4)]).export(tmp_path / "far.obj", digits=17)
-    found = Meshes(Folder(tmp_path)).solid(Mesh(uri="far.obj"), 12.0)
+    found = Meshes(MeshFolder(tmp_path)).solid(Mesh(uri="far.obj"), 12.0)
     assert found.mass == pytest.approx(96.0)
     assert found.center == pytest.approx((away + 0.5, 1.0, 2.0))
     assert found.inertia == pytest.approx((8 * 20, 8 * 17, 8 * 5, 0.0, 0.0, 0.0), abs=1e-9)
@@ -189,7 +172,7 @@ def test_a_mesh_far_from_the_origin_turns_as_one_that_is_near(tmp_path: Path, aw
 @pytest.mark.parametrize("scale", [1e-60, 1e-30, 1e30, 1e60])
 def test_a_mesh_of_any_size_is_a_solid(tmp_path: Path, scale: float):
     trimesh.creation.box(extents=(1, 2, 4)).export(tmp_path / "box.stl")
-    found = Meshes(Folder(tmp_path)).solid(Mesh(uri="box.stl", scale=(scale, scale, scale)), 12.0)
+    found = Meshes(MeshFolder(tmp_path)).solid(Mesh(uri="box.stl", scale=(scale, scale, scale)), 12.0)
     assert found.mass == pytest.approx(96.0 * scale * scale * scale)
     squared = 8 * scale * scale * scale * scale * scale
     assert found.inertia[:3] == pytest.approx((20 * squared, 17 * squared, 5 * squared), rel=1e-9, abs=0)

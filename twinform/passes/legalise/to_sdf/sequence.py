@@ -7,19 +7,20 @@ from twinform.passes.legalise.automatic_inertias import LeaveInertias
 from twinform.passes.legalise.changed_names import RestoreNames, UniqueNames
 from twinform.passes.legalise.drake_joints import ReadDrakeJoints
 from twinform.passes.legalise.drop_stale import DropStale
+from twinform.passes.legalise.free_links import FreeStaticModels
 from twinform.passes.legalise.gearboxes import FoldGearboxes
 from twinform.passes.legalise.lumped_names import FollowLumpedNames
 from twinform.passes.legalise.round_tiny_numbers import RoundTinyNumbers
 from twinform.passes.legalise.scoped_elements import HideScopedElements
 from twinform.passes.legalise.shape_names import NameShapes, RestoreShapeNames
 from twinform.passes.legalise.shared_inertias import ShareInertias
+from twinform.passes.legalise.shared_materials import SharedMaterials
 from twinform.passes.legalise.to_sdf.carry_urdf import CarryUrdf
 from twinform.passes.legalise.to_sdf.close_loops import CloseLoops
 from twinform.passes.legalise.to_sdf.declare_quaternions import DeclareQuaternions
 from twinform.passes.legalise.to_sdf.fold_gazebo import FoldGazebo
 from twinform.passes.legalise.to_sdf.fold_joints import FoldJoints
 from twinform.passes.legalise.to_sdf.frame_links import FrameLinks
-from twinform.passes.legalise.to_sdf.free_static_models import FreeStaticModels
 from twinform.passes.legalise.to_sdf.joint_types import UrdfJoints
 from twinform.passes.legalise.to_sdf.mesh_uris import MeshUris
 from twinform.passes.legalise.to_sdf.note_lumping import NoteLumping
@@ -27,13 +28,11 @@ from twinform.passes.legalise.to_sdf.restore_frames import RestoreFrames
 from twinform.passes.legalise.to_sdf.restore_joints import RestoreJoints
 from twinform.passes.legalise.to_sdf.restore_nested import NameScopes, RestoreNested
 from twinform.passes.legalise.to_sdf.retarget import RetargetSdf
-from twinform.passes.legalise.to_sdf.root_masses import UrdfBodies
-from twinform.passes.legalise.to_sdf.shared_materials import SharedMaterials
 from twinform.passes.legalise.to_sdf.unpack_sdf import UnpackSdf
 from twinform.passes.legalise.to_sdf.world_link import WorldLink
+from twinform.passes.legalise.unwritten_masses import UrdfBodies
 from twinform.passes.sdf_versions import lower_meaning, lower_version, raise_unversioned
-from twinform.passes.sdf_versions.fold_capsules import FoldCapsules
-from twinform.passes.sdf_versions.fold_shape_meshes import FoldShapeMeshes
+from twinform.passes.sdf_versions.replace_shapes import FoldCapsules, FoldShapeMeshes
 from twinform.request_options import USUAL, Requested
 from twinform.schemas import parse_version
 

@@ -1,5 +1,6 @@
 """Converting geometry to the shapes of URDF, and carrying the others."""
 
+from collections.abc import Mapping
 from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import rules
@@ -12,6 +13,7 @@ from twinform.ir import (
     Model,
     Node,
     Visual,
+    census_of,
     count_parts,
     replace_fields,
 )
@@ -22,7 +24,7 @@ from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
 from twinform.passes.mesh_jobs.mesh_files import NoMeshError
 from twinform.passes.shared.document_uris import GAZEBO, MESH_SCHEME, package_uri, scheme_of
 from twinform.passes.shared.nodes import piece
-from twinform.passes.shared.replaced_shapes import ShapeReplacer
+from twinform.passes.shared.replaced_shapes import REPLACED, ShapeReplacer, map_touched, with_ends
 from twinform.request_options import UrdfVersion
 
 Sayable = frozenset[str]
@@ -161,3 +163,30 @@ def urdf_uri(shape: AnyShaped, kind: str, written: str, keeper: UrdfKeeper) -> t
         keeper.account(rules.SDF_ONLY, f"{written!r} has the scheme that model:// becomes", shape.location, 1)
         shape = keeper.annotate(shape, kind, attributes={"scheme": scheme_of(written)})
     return shape, uri
+
+
+class AddCapsuleEnds(ToUrdfPass):
+    """Put a sphere at each end of a cylinder that a capsule became.
+
+    Changes: 1. visuals and collisions with such a cylinder; the spheres come behind it, with its material; 2. a contact
+    sensor that names such a collision names the spheres too.
+    Never touches: other cylinders.
+    Diagnostics: none; `map-geometry` has accounted for the capsule.
+    """
+
+    name: ClassVar[str] = "add-capsule-ends"
+
+    # Near the end: what all collisions of a link share is in <gazebo> by now, and what only some
+    # have is carried once. Before `name-shapes-for-gazebo`, which counts all shapes.
+    def run_model(self, model: Model, keeper: UrdfKeeper) -> Model:
+        """The model with whole capsules."""
+        if not census_of(model) & REPLACED:
+            return model
+        links: list[Link] = []
+        ends: dict[str | None, Mapping[str, tuple[str, ...]]] = {}
+        for link in model.links:
+            visuals, _ = with_ends(link.visuals, annotated=keeper.carriers)
+            collisions, ends[link.name] = with_ends(link.collisions, annotated=keeper.carriers)
+            links.append(replace_fields(link, visuals=visuals, collisions=collisions))
+        extensions = tuple(map_touched(each, ends.get(each.reference, {})) for each in model.extensions)
+        return replace_fields(model, links=tuple(links), extensions=extensions)

@@ -15,22 +15,20 @@ from twinform.passes.legalise.round_tiny_numbers import RoundTinyNumbers
 from twinform.passes.legalise.scoped_elements import ShowScopedElements
 from twinform.passes.legalise.shape_names import NameShapesForGazebo
 from twinform.passes.legalise.shared_inertias import RestoreInertias
-from twinform.passes.legalise.to_urdf.add_capsule_ends import AddCapsuleEnds
+from twinform.passes.legalise.shared_materials import RestoreMaterials
 from twinform.passes.legalise.to_urdf.build_tree import BuildTree
 from twinform.passes.legalise.to_urdf.carry_the_rest import CarryTheRest
 from twinform.passes.legalise.to_urdf.express_axes import ExpressAxes
 from twinform.passes.legalise.to_urdf.extend_gazebo import ExtendGazebo
-from twinform.passes.legalise.to_urdf.fill_inertials import FillInertials
 from twinform.passes.legalise.to_urdf.flatten_for_urdf import FlattenForUrdf
 from twinform.passes.legalise.to_urdf.fold_planar_joints import FoldPlanarJoints
-from twinform.passes.legalise.to_urdf.map_geometry import MapGeometry
+from twinform.passes.legalise.to_urdf.map_geometry import AddCapsuleEnds, MapGeometry
 from twinform.passes.legalise.to_urdf.map_joints import MapJoints
 from twinform.passes.legalise.to_urdf.map_materials import MapMaterials
 from twinform.passes.legalise.to_urdf.map_surfaces import MapSurfaces
 from twinform.passes.legalise.to_urdf.rebase_links import RebaseLinks
 from twinform.passes.legalise.to_urdf.resolve_joint_ends import ResolveJointEnds
 from twinform.passes.legalise.to_urdf.restore_links import RestoreLinks
-from twinform.passes.legalise.to_urdf.restore_materials import RestoreMaterials
 from twinform.passes.legalise.to_urdf.restore_shapes import RestoreShapes
 from twinform.passes.legalise.to_urdf.select_model import SelectModel
 from twinform.passes.legalise.to_urdf.share_visuals import ShareVisuals
@@ -38,8 +36,8 @@ from twinform.passes.legalise.to_urdf.turn_frames_into_links import TurnFramesIn
 from twinform.passes.legalise.to_urdf.unfold_joints import UnfoldJoints
 from twinform.passes.legalise.to_urdf.unpack_urdf import UnpackUrdf
 from twinform.passes.legalise.to_urdf.upgrade_sdf import UpgradeSdf
-from twinform.passes.sdf_versions.fold_capsules import FoldCapsules
-from twinform.passes.sdf_versions.fold_shape_meshes import FoldShapeMeshes
+from twinform.passes.legalise.unwritten_masses import FillInertials
+from twinform.passes.sdf_versions.replace_shapes import FoldCapsules, FoldShapeMeshes
 from twinform.passes.sdf_versions.spread_imu_noise import GatherImuNoise
 from twinform.request_options import USUAL, Requested, UrdfVersion
 from twinform.schemas import versions_of

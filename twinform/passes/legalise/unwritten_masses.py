@@ -1,14 +1,16 @@
-"""Masses and the root link of a URDF, as SDF needs them."""
+"""Masses and inertias that are not written: nothing in URDF, and 1 kg with 1 kg m^2 in SDF; and the root of a URDF."""
 
 from collections import defaultdict
 from typing import ClassVar
 
 from twinform.diagnostics import DiagnosticSink, Fate, rules
-from twinform.ir import Format, Inertia, Inertial, Link, Model
+from twinform.ir import Format, Inertia, Inertial, Link, Model, replace_fields
+from twinform.ir.solids import with_written_defaults
 from twinform.passes.carriers.annotations import came_from, with_annotation
 from twinform.passes.carriers.token_mass import MOMENTS, TOKEN, TOKEN_MASS, TOKEN_MOMENT, UNSAID
 from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.legalise.to_sdf.frame_links import is_massless
+from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
 
 _NO_INERTIA = Inertia.unchecked(ixx=0.0, ixy=0.0, ixz=0.0, iyy=0.0, iyz=0.0, izz=0.0)
 _NONE = Inertial.unchecked(mass=0.0, inertia=_NO_INERTIA)
@@ -128,3 +130,24 @@ def _reaches(start: str, edges: dict[str, list[str]], goal: set[str]) -> bool:
         stack.extend(new for new in edges.get(name, ()) if new not in seen)
         seen.update(edges.get(name, ()))
     return False
+
+
+class FillInertials(ToUrdfPass):
+    """Write the mass and inertia that SDF gives to every link without them.
+
+    Changes: a missing mass is 1 kg, a missing `ixx`, `iyy`, `izz` 1 kg m^2 and a missing product of inertia 0. These
+    are the values that every reader of SDF takes; a reader of URDF would take none.
+    Diagnostics: none.
+    """
+
+    name: ClassVar[str] = "fill-inertials"
+
+    def run_model(self, model: Model, keeper: UrdfKeeper) -> Model:
+        """The model with an inertial in every link."""
+        return model.copy(links=tuple(map(_fill_link, model.links)))
+
+
+def _fill_link(link: Link) -> Link:
+    # A link without <inertial> weighs 1 kg in SDF (the specification, and every reader) and nothing
+    # in URDF.
+    return replace_fields(link, inertial=with_written_defaults(link.inertial))

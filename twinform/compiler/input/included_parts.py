@@ -1,4 +1,4 @@
-"""Checks a file that others include, such as one of macros: its syntax, definitions and expressions."""
+"""Checks files that others include, of xacro and MJCF, which are no models by themselves."""
 
 import re
 from collections.abc import Iterator
@@ -6,7 +6,8 @@ from pathlib import Path
 from xml.sax.saxutils import unescape
 
 from twinform.compiler.input.load_options import LoadOptions, LoadResult
-from twinform.compiler.input.parsing import UnreadableError, read_bytes
+from twinform.compiler.input.loading import bytes_of
+from twinform.compiler.input.parsing import UnreadableError, parse, read_bytes
 from twinform.compiler.input.xacro.budget import ExcessError
 from twinform.compiler.input.xacro.expression_values import ExpressionRefusedError
 from twinform.compiler.input.xacro.interpreter import parse as syntax_of
@@ -89,3 +90,20 @@ def _fault_of_expression(found: re.Match[str]) -> str | None:
     except (ExcessError, ValueError) as error:
         return str(error)
     return None
+
+
+def check_mjcf_part(path: Path, load_options: LoadOptions) -> LoadResult:
+    """Check that a file which others include is well-formed XML."""
+    sink = DiagnosticSink(str(path), load_options.strict)
+    load_options.search.seen.add(path)
+    allowances = load_options.allowances(sink.file)
+    data: bytes | None = None
+    try:
+        data = bytes_of(path, sink, load_options)
+        allowances.read(data, sink)
+        parse(data, sink, load_options.limits)
+    except UnreadableError:
+        return LoadResult(sink.file, None, tuple(sink.diagnostics), unreadable=True, content=data)
+    allowances.checked = True
+    allowances.settle(sink)
+    return LoadResult(sink.file, None, tuple(sink.diagnostics), content=data, allowed=tuple(sink.allowed))
