@@ -8,6 +8,7 @@ the place has.
 from collections import defaultdict
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
+from functools import lru_cache
 from itertools import islice
 
 from twinform.compiler.audit_mjcf import name_in_sdf
@@ -46,6 +47,7 @@ def settle(entries: Sequence[LedgerEntry], root: XmlElement) -> tuple[LedgerEntr
     )
 
 
+@lru_cache(maxsize=1024)  # most are names of elements and attributes, and paths that stand together are alike
 def bare_path(path: str) -> str:
     """Return a path without predicates and prefixes; the line of a part tells elements of one path apart."""
     bare = _PREDICATE.sub("", path)

@@ -226,7 +226,7 @@ class ElementReader:
                 if child.tag != found[0].tag:
                     messages.repeated(context, child)
         for name in self._needed:
-            if name not in counts:
+            if name not in counts and not context.partial:
                 messages.missing_child(context, element, name)
 
     def _other_child(self, child: XmlElement, node: Data, context: Context, place: int) -> None:

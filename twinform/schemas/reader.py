@@ -39,6 +39,7 @@ class SchemaReader:
         self.version = version
         self.types = VALUE_TYPES[facts.format]
         self._definitions: dict[tuple[str, type[Node] | None, str], ElementReader] = {}
+        self._makers: dict[tuple[str, type[Node]], NodeMaker] = {}
 
     def read(
         self,
@@ -61,7 +62,10 @@ class SchemaReader:
         # No validation by Pydantic follows. All that it could refuse is a node without a required
         # field, or with a word that its class does not have, and for these there is a finding.
         self._definition(fact.name, kind, "").read(element, data, context, 1)
-        self._maker(fact, kind).complete(data)
+        key = fact.name, kind
+        if key not in self._makers:
+            self._makers[key] = self._maker(fact, kind)
+        self._makers[key].complete(data)
         return data
 
     def _definition(self, name: str, into: type[Node] | None, at: str) -> ElementReader:

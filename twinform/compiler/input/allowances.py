@@ -16,8 +16,11 @@ from twinform.file_access import Readable
 from twinform.lazy import lazy_pattern
 from twinform.schemas.messages import StandIn
 
-_MARKS = tuple(("twinform".encode(code), "urn:twinform:".encode(code)) for code in ("utf-8", "utf-16-le", "utf-16-be"))
-"""The word that begins a suppression, and the namespace that has the word too, in each encoding."""
+_MARKS = tuple(
+    ("<!--".encode(code), "twinform".encode(code), "urn:twinform:".encode(code))
+    for code in ("utf-8", "utf-16-le", "utf-16-be")
+)
+"""How a comment begins, the word that begins a suppression, and the namespace with that word, in each encoding."""
 _WITHOUT_MODEL = "without this part there is no model"
 
 
@@ -112,7 +115,9 @@ def staying(errors: Iterable[Diagnostic], reason: str) -> Iterator[Diagnostic]:
 
 def suppressions(text: bytes) -> Suppressions:
     """Parse the suppressions in a file."""
-    if not any(text.count(mark) > text.count(namespace) for mark, namespace in _MARKS):
+    if not any(
+        comment in text and text.count(mark) > text.count(namespace) for comment, mark, namespace in _MARKS
+    ):
         return NO_SUPPRESSIONS
     from twinform.diagnostics.suppressions import parse_suppressions  # noqa: PLC0415 - few files have any
     from twinform.text import SourceText, UndecodableError  # noqa: PLC0415 - as above

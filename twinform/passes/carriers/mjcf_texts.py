@@ -126,7 +126,7 @@ def read_node(data: str, kind: str, source: Source) -> Node:
     for element in xml.iter():
         element.sourceline = source.line  # pyright: ignore[reportAttributeAccessIssue] - it can be set
     version, sink = table("sdf").newest, DiagnosticSink()
-    context = Context(sink, source.file, "sdf", version)
+    context = Context(sink, source.file, "sdf", version, partial=True)
     values: dict[str, Any] = reader("sdf", version).read(xml, context, definition, KINDS[kind], source)
     if kind == DOCUMENT:
         values["format"] = Format.SDF

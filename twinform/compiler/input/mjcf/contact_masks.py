@@ -24,7 +24,7 @@ class Bits(NamedTuple):
     @classmethod
     def of(cls, geom: Piece) -> Self:
         """Return the masks of a geom, which are 1 where they are not written."""
-        return cls(*(int(float(geom.peek(name) or "1")) for name in ("contype", "conaffinity")))
+        return cls(int(float(geom.peek("contype") or "1")), int(float(geom.peek("conaffinity") or "1")))
 
     @property
     def touches(self) -> bool:

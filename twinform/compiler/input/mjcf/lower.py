@@ -26,7 +26,7 @@ from twinform.compiler.input.mjcf.pieces import Piece, pose_of
 from twinform.compiler.input.mjcf.remainders import RemainderKeeper, in_sections, with_rest
 from twinform.compiler.input.mjcf.sections import Owners, Sections
 from twinform.compiler.resolve_uris import LocalAssets
-from twinform.ir import Document, Element, Format, Frame, Joint, Light, Link, Model, Sensor, World
+from twinform.ir import Document, Element, Format, Frame, Joint, Light, Link, Model, World
 from twinform.passes.carriers.annotations import MADE_NAME, WORLDBODY, annotation, with_annotation
 from twinform.passes.carriers.carriers import NAMESPACE, PREFIX
 from twinform.passes.legalise.to_mjcf.kept_mjcf import ROOT
@@ -156,25 +156,31 @@ class FileLowering:
 
     def _add_sensors(self, number: int, parts: TreeParts) -> None:
         """Put the sensors at the sites of a model on its links and joints."""
-        for found in self.sensors.get(number, ()):
-            if found.site not in parts.sites or any(each.is_settled for each in found.pieces):
-                continue
-            link, frame = parts.sites[found.site]
-            self._add_sensor(found, link, frame, parts)
-
-    def _add_sensor(self, found: SiteSensor, link: str, frame: str, parts: TreeParts) -> None:
-        index = next(index for index, each in enumerate(parts.links) if each.name == link)
-        name = f"{safe_name(found.site)}_{found.type}"
-        if found.type != "force_torque":
-            sensor = lower_sensor(found, name, frame, parts.links[index], self.keeper)
-            if sensor is not None:
-                parts.links[index] = _with_sensor(parts.links[index], sensor)
+        sensors = [each for each in self.sensors.get(number, ()) if each.site in parts.sites]
+        if not sensors:
             return
-        above = next((index for index, each in enumerate(parts.joints) if each.child == link), None)
-        if above is not None:
-            sensor = lower_sensor(found, name, frame, parts.links[index], self.keeper)
+        links = {each.name: index for index, each in enumerate(parts.links)}
+        above: dict[str | None, int] = {}
+        for index, each in enumerate(parts.joints):
+            above.setdefault(each.child, index)
+        for each in sensors:
+            if not any(piece.is_settled for piece in each.pieces):
+                link, frame = parts.sites[each.site]
+                self._add_sensor(each, frame, parts, links[link], above.get(link))
+
+    def _add_sensor(self, found: SiteSensor, frame: str, parts: TreeParts, index: int, above: int | None) -> None:
+        """Put a sensor on a link, or on the joint above it; both are known by their places."""
+        link, name = parts.links[index], f"{safe_name(found.site)}_{found.type}"
+        if found.type == "force_torque" and above is None:
+            return
+        sensor = lower_sensor(found, name, frame, link, self.keeper)
+        if sensor is None:
+            return
+        if found.type != "force_torque" or above is None:
+            parts.links[index] = link.copy(sensors=(*link.sensors, sensor))
+        else:
             joint = parts.joints[above]
-            parts.joints[above] = joint.copy(sensors=(*joint.sensors, *((sensor,) if sensor else ())))
+            parts.joints[above] = joint.copy(sensors=(*joint.sensors, sensor))
 
     def _left_of(self, number: int) -> dict[str, list[Element]]:
         """Return what no node says of the sections and is about one tree alone."""
@@ -278,7 +284,3 @@ class FileLowering:
         )
         mark = (annotation(MADE_NAME, WORLDBODY),)
         return (Model.unchecked(name=WORLDBODY, static=True, links=(link,), opaque=mark, source=bodies[0].source),)
-
-
-def _with_sensor(link: Link, sensor: Sensor) -> Link:
-    return link.copy(sensors=(*link.sensors, sensor))

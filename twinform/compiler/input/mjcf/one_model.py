@@ -57,13 +57,12 @@ def one_model(document: Document, root: XmlElement, *, is_free: bool) -> Model:
         match node:
             case Pose():
                 return _in_rpy(node)
-            case Link():
-                node = _with_shapes_apart(node)
             case Collision():
                 return with_contacts(geoms, without_usual(node))
+            case Link():
+                return without_usual(_with_shapes_apart(node))
             case _:
-                pass
-        return without_usual(node)
+                return without_usual(node) if node.opaque else node
 
     return rewrite(model, Node, as_before)
 

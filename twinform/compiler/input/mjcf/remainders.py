@@ -9,10 +9,11 @@ the written element lacks are added, and what the node says wins.
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
+from functools import lru_cache
 from typing import TypeVar
 
 from twinform.compiler.input.mjcf.pieces import Piece
-from twinform.diagnostics import NOWHERE, DiagnosticSink, Fate, LedgerEntry, Location, Rule, rules
+from twinform.diagnostics import DiagnosticSink, Fate, LedgerEntry, Location, Rule, rules
 from twinform.ir import Document, Element, Node, Opaque
 from twinform.ir.rewrite import walk
 from twinform.passes.carriers.annotations import find_annotation
@@ -89,11 +90,13 @@ class RemainderKeeper:
         """Return the element with the attributes that no node says, and with all in it that is not settled yet."""
         piece.is_settled = True
         left = piece.untaken
-        where = piece.location if left else NOWHERE
-        for name, _ in left:
-            piece.kept.add(name)
-            message = f"{name} of <{piece.tag}>{_called(piece)} {_IS_KEPT}: {reason(name, piece.tag)}"
-            self._carry(message, where.at(f"@{name}"), int(name in self._attributes_of(piece)))
+        if left:
+            where, written = piece.location, self._attributes_of(piece)
+            what = f"<{piece.tag}>{_called(piece)} {_IS_KEPT}"
+            for name, _ in left:
+                piece.kept.add(name)
+                message = f"{name} of {what}: {reason(name, piece.tag)}"
+                self._carry(message, where.at(f"@{name}"), int(name in written))
         inside = tuple([self.whole(each) for each in piece.inside if not each.is_settled]) if with_inside else ()
         return Element.unchecked(name=piece.tag, attributes=left, children=inside, source=piece.source)
 
@@ -125,8 +128,9 @@ def _written_attributes(file: XmlElement) -> Mapping[tuple[int, str], frozenset[
     """Return the attributes in a file by the line and the name of their elements."""
     found: dict[tuple[int, str], frozenset[str]] = {}
     for each in file.iter():
-        key = each.sourceline or 0, str(each.tag)
-        found[key] = found.get(key, frozenset()).union(map(str, each.keys()))
+        key, names = (each.sourceline or 0, str(each.tag)), frozenset(map(str, each.keys()))
+        before = found.get(key)
+        found[key] = before | names if before else names
     return found
 
 
@@ -161,6 +165,7 @@ def _join(sections: Sequence[Element]) -> Element:
     )
 
 
+@lru_cache(maxsize=1024)  # a file has few attributes, and many elements with them
 def reason(*words: str) -> str:
     """Return why SDF does not say a part of MJCF: by its own name, or by that of what it is in."""
     if any(word.startswith("{") for word in words):

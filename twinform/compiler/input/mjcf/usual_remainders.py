@@ -25,7 +25,7 @@ _USUAL: Mapping[str, Mapping[str, frozenset[str] | None]] = {
 
 def without_usual(node: AnyNode) -> AnyNode:
     """The node without remainders of its own that only hold what is written for every robot."""
-    if not any(map(_is_kept, node.opaque)):
+    if not node.opaque or not any(map(_is_kept, node.opaque)):
         return node
     return replace_fields(node, opaque=tuple(left for part in node.opaque if (left := _left_of(part)) is not None))
 
