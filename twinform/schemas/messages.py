@@ -63,7 +63,7 @@ class Context:
     version is the file's own; where it is not, old syntax is nothing to warn of. `header` holds what the root
     element has about the document rather than about its node. `broken` is whether some node lacks what its class needs,
     so that the document is good for checks only; then there is a finding as well. `stand_ins` are the values that such
-    nodes have instead, where they are no likely guesses. In a `partial` document, such as a carrier, nothing is missing.
+    nodes have instead, where they are no likely guesses. In a `partial` document, as a carrier is, nothing is missing.
     """
 
     sink: DiagnosticSink

@@ -115,9 +115,7 @@ def staying(errors: Iterable[Diagnostic], reason: str) -> Iterator[Diagnostic]:
 
 def suppressions(text: bytes) -> Suppressions:
     """Parse the suppressions in a file."""
-    if not any(
-        comment in text and text.count(mark) > text.count(namespace) for comment, mark, namespace in _MARKS
-    ):
+    if not any(comment in text and text.count(mark) > text.count(namespace) for comment, mark, namespace in _MARKS):
         return NO_SUPPRESSIONS
     from twinform.diagnostics.suppressions import parse_suppressions  # noqa: PLC0415 - few files have any
     from twinform.text import SourceText, UndecodableError  # noqa: PLC0415 - as above

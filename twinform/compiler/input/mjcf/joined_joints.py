@@ -1,7 +1,7 @@
 """Several joints of one body that were one joint with two axes, or of another kind, before it was written as MJCF."""
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 from twinform.ir import Joint, Link, Mimic, Model, rewrite
 from twinform.ir.defaults import multiplier
@@ -16,53 +16,59 @@ def join_joints(model: Model, partials: Iterable[Joint]) -> tuple[Model, list[Jo
 
     Returned with it are the partial joints that stand for something else by now.
     """
+    several = [(each, names) for each in partials if len(names := written_names(each)) > 1]
+    several = [each for each in several if find_annotation(each[0], LOOP) is None]
+    if not several:
+        return model, []
+    joints = {each.name: each for each in model.joints}
+    holding = {each.name for each in model.links if not _is_bare(each)}
     left: list[Joint] = []
-    for partial in partials:
-        names = written_names(partial)
-        if len(names) > 1 and find_annotation(partial, LOOP) is None:
-            joined = _joined(model, partial, names)
-            if joined is model:
-                left.append(partial)
-            model = joined
-    return model, left
+    joined: dict[str, Joint | None] = {}
+    between: set[str | None] = set()
+    followed: dict[str, Mimic] = {}
+    for partial, names in several:
+        chain = [joints[name] for name in names if name in joints]
+        links = [each.child for each in chain[:-1]]
+        if len(chain) != len(names) or not _is_one(partial, chain) or not holding.isdisjoint(links):
+            left.append(partial)
+            continue
+        joined |= {**dict.fromkeys(names), chain[-1].name: _joined(partial, chain)}
+        between.update(links)
+        followed |= {name: _leader(partial, is_last=name == names[-1]) for name in names}
+    made = tuple(kept for each in model.joints if (kept := joined.get(each.name, each)) is not None)
+    model = model.copy(links=tuple(each for each in model.links if each.name not in between), joints=made)
+    return rewrite(model, Mimic, lambda mimic: _led(mimic, followed.get(mimic.joint or ""))), left
 
 
-def _joined(model: Model, partial: Joint, names: list[str]) -> Model:
-    by_name = {each.name: each for each in model.joints}
-    chain = [by_name[name] for name in names if name in by_name]
-    between = [each.child for each in chain[:-1]]
-    if len(chain) != len(names) or between != [each.parent for each in chain[1:]]:
-        return model
-    if not all(_is_bare(link) for link in model.links if link.name in between):
-        return model
-    last = chain[-1]
+def _is_one(partial: Joint, chain: Sequence[Joint]) -> bool:
+    """Whether joints hang from each other, and act as the one that they were."""
+    if [each.child for each in chain[:-1]] != [each.parent for each in chain[1:]]:
+        return False
     # A slide is written without its place, which changes no motion.
-    is_one = _is_led(chain[0]) if partial.type == "screw" else all(each.pose == last.pose for each in chain)
-    if not is_one:
-        return model
-    axes = {"axis": chain[0].axis, "axis2": last.axis}
-    if partial.type == "screw":
-        axes = {"axis": last.axis, "axis2": None}
-    joint = last.copy(
+    return _is_led(chain[0]) if partial.type == "screw" else all(each.pose == chain[-1].pose for each in chain)
+
+
+def _joined(partial: Joint, chain: Sequence[Joint]) -> Joint:
+    """One joint for a chain of them."""
+    first, last = chain[0], chain[-1]
+    axes = {"axis": last.axis, "axis2": None} if partial.type == "screw" else {"axis": first.axis, "axis2": last.axis}
+    return last.copy(
         name=partial.name,
         type=partial.type,
-        parent=chain[0].parent,
+        parent=first.parent,
         opaque=tuple(part for each in chain for part in each.opaque),
         **axes,
-        **_pitch(partial, chain[0]),
+        **_pitch(partial, first),
     )
-    joints = tuple(joint if each is last else each for each in model.joints if each is last or each not in chain)
-    links = tuple(each for each in model.links if each.name not in between)
-    joined = model.copy(links=links, joints=joints)
-    return rewrite(joined, Mimic, lambda mimic: _led(mimic, names, partial))
 
 
-def _led(mimic: Mimic, names: list[str], partial: Joint) -> Mimic:
-    """A mimic that follows one axis of a joint of two."""
-    if mimic.joint not in names:
-        return mimic
-    second = partial.type in TWO_AXES and mimic.joint == names[-1]
-    return mimic.copy(joint=partial.name, axis="axis2" if second else None)
+def _leader(partial: Joint, *, is_last: bool) -> Mimic:
+    """What follows one axis of a joint of two."""
+    return Mimic.unchecked(joint=partial.name, axis="axis2" if is_last and partial.type in TWO_AXES else None)
+
+
+def _led(mimic: Mimic, leader: Mimic | None) -> Mimic:
+    return mimic if leader is None else mimic.copy(joint=leader.joint, axis=leader.axis)
 
 
 def _is_led(slide: Joint) -> bool:
