@@ -1,14 +1,43 @@
 """Elements of `<ros2_control>`: a system with its hardware, its joints, and their interfaces."""
 
+from abc import abstractmethod
 from collections.abc import Iterable
 
-from twinform.ir import Element, Format, Model
+from pydantic import Field
+
+from twinform.diagnostics import DiagnosticSink
+from twinform.ir import Document, Element, Format, Model, rewrite
+from twinform.passes.carriers.carriers import declare_carriers
+from twinform.passes.framework.pass_base import Pass
 from twinform.passes.joints.transmission import STATES, urdf_elements
 from twinform.passes.shared.nodes import unique_name
 
 GAZEBO = "gz_ros2_control/GazeboSimSystem"
 """The plugin of gz_ros2_control."""
 _SYSTEM = "ros2_control"
+
+
+class MakeRos2Control(Pass):
+    """The base of passes that make one `<ros2_control>` system of what drives the joints of a model."""
+
+    hardware: str = Field(
+        default=GAZEBO,
+        min_length=1,
+        description="The plugin behind the joints: `mock_components/GenericSystem`, "
+        "`mujoco_ros2_control/MujocoSystemInterface` or a driver.",
+    )
+    system: str | None = Field(
+        default=None, min_length=1, description="The name of the system; else that of the model with `_system` behind."
+    )
+
+    def run(self, document: Document, sink: DiagnosticSink) -> Document:
+        """The document with a system in each model that has something to make it of."""
+        changed = rewrite(document, Model, lambda model: self.convert(model, document.format, sink))
+        return document if changed is document else declare_carriers(changed)
+
+    @abstractmethod
+    def convert(self, model: Model, format_: Format, sink: DiagnosticSink) -> Model:
+        """One model with its system."""
 
 
 def controlled_joints(model: Model, format_: Format) -> dict[str, str]:

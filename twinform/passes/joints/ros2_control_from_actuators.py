@@ -4,18 +4,15 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import ClassVar
 
-from pydantic import Field
-
 from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink
 from twinform.diagnostics.rules import FOREIGN_HARDWARE_INTERFACE
-from twinform.ir import Document, Element, Format, Joint, Model, Opaque, rewrite
+from twinform.ir import Element, Format, Joint, Model, Opaque
 from twinform.passes.carriers.annotations import find_annotation
-from twinform.passes.carriers.carriers import KEPT, declare_carriers
-from twinform.passes.framework.pass_base import Pass
+from twinform.passes.carriers.carriers import KEPT
 from twinform.passes.joints.joint_commands import Interface
 from twinform.passes.joints.ros2_control import (
-    GAZEBO,
+    MakeRos2Control,
     command_element,
     controlled_joints,
     joint_element,
@@ -32,7 +29,7 @@ _DRIVEN = frozenset({"revolute", "continuous", "prismatic", "screw"})
 Ends = tuple[float, float]
 
 
-class Ros2ControlFromActuators(Pass):
+class Ros2ControlFromActuators(MakeRos2Control):
     """Make a `<ros2_control>` system of the actuators that a model has of MuJoCo, for the conversion of MJCF to URDF.
 
     Changes models with actuators of MJCF, which they keep in an element of our own namespace:
@@ -53,21 +50,8 @@ class Ros2ControlFromActuators(Pass):
     name = "ros2-control-from-actuators"
     example: ClassVar[str] = "ros2-control-from-actuators{hardware=mujoco_ros2_control/MujocoSystemInterface}"
 
-    hardware: str = Field(
-        default=GAZEBO,
-        min_length=1,
-        description="The plugin behind the joints, such as `mujoco_ros2_control/MujocoSystemInterface`.",
-    )
-    system: str | None = Field(
-        default=None, min_length=1, description="The name of the system; else that of the model with `_system` behind."
-    )
-
-    def run(self, document: Document, sink: DiagnosticSink) -> Document:
-        """The document with systems beside actuators."""
-        changed = rewrite(document, Model, lambda model: self._convert(model, document.format, sink))
-        return document if changed is document else declare_carriers(changed)
-
-    def _convert(self, model: Model, format_: Format, sink: DiagnosticSink) -> Model:
+    def convert(self, model: Model, format_: Format, sink: DiagnosticSink) -> Model:
+        """One model with a system beside its actuators."""
         actuators = list(_actuators(model))
         if not actuators:
             return model

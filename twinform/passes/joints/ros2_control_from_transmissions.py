@@ -8,11 +8,9 @@ from pydantic import Field
 
 from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, Fate, Location, rules
-from twinform.ir import Document, Element, Format, Joint, Model, Opaque, rewrite
-from twinform.passes.carriers.carriers import declare_carriers
-from twinform.passes.framework.pass_base import Pass
+from twinform.ir import Element, Format, Joint, Model, Opaque
 from twinform.passes.joints.ros2_control import (
-    GAZEBO,
+    MakeRos2Control,
     command_element,
     controlled_joints,
     joint_element,
@@ -33,7 +31,7 @@ from twinform.passes.joints.transmission import (
 _UNMOVABLE = frozenset({"fixed", "floating", "planar"})
 
 
-class Ros2ControlFromTransmissions(Pass):
+class Ros2ControlFromTransmissions(MakeRos2Control):
     """Turn the transmissions of ROS 1 into one `<ros2_control>` system for each model.
 
     Changes models with `<transmission>` elements, nested models and those of worlds too; a model of SDF has them in
@@ -56,20 +54,7 @@ class Ros2ControlFromTransmissions(Pass):
     name = "ros2-control-from-transmissions"
     example: ClassVar[str] = "ros2-control-from-transmissions{hardware=mock_components/GenericSystem}"
 
-    hardware: str = Field(
-        default=GAZEBO,
-        min_length=1,
-        description="The plugin behind the joints, such as `mock_components/GenericSystem` or a driver.",
-    )
-    system: str | None = Field(
-        default=None, min_length=1, description="The name of the system; else that of the model with `_system` behind."
-    )
     keep: bool = Field(default=False, description="Whether the transmissions stay as well, for programs of ROS 1.")
-
-    def run(self, document: Document, sink: DiagnosticSink) -> Document:
-        """The document with systems in place of transmissions."""
-        changed = rewrite(document, Model, lambda model: self.convert(model, document.format, sink))
-        return document if changed is document else declare_carriers(changed)
 
     def convert(self, model: Model, format_: Format, sink: DiagnosticSink) -> Model:
         """One model with a system in place of its transmissions."""

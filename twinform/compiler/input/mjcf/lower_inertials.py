@@ -4,7 +4,8 @@ from collections.abc import Callable, Sequence
 from itertools import combinations
 from typing import NamedTuple, Self
 
-from twinform.compiler.input.mjcf.pieces import Numbers, Piece, pose_of
+from twinform.compiler.input.mjcf.number_lists import Numbers
+from twinform.compiler.input.mjcf.pieces import Piece, pose_of
 from twinform.compiler.input.mjcf.remainders import RemainderKeeper, holder
 from twinform.dataclass import dataclass
 from twinform.diagnostics import rules

@@ -1,7 +1,8 @@
 """Colors and textures of geoms as materials of SDF: their colors, and the image of a texture as an albedo map."""
 
 from twinform.compiler.input.mjcf.assets import AssetTable
-from twinform.compiler.input.mjcf.pieces import Numbers, Piece
+from twinform.compiler.input.mjcf.number_lists import Numbers
+from twinform.compiler.input.mjcf.pieces import Piece
 from twinform.ir import Color, Material
 
 _WHITE: Numbers = (1.0, 1.0, 1.0, 1.0)

@@ -2,7 +2,8 @@
 
 from typing import NamedTuple
 
-from twinform.compiler.input.mjcf.pieces import Numbers, Piece
+from twinform.compiler.input.mjcf.number_lists import Numbers
+from twinform.compiler.input.mjcf.pieces import Piece
 from twinform.ir import Element, Opaque
 from twinform.ir.node import Vector3
 from twinform.schemas import format_value

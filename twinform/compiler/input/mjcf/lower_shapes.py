@@ -5,7 +5,8 @@ from collections.abc import Callable, Mapping
 from typing import NamedTuple
 
 from twinform.compiler.input.mjcf.assets import AssetTable
-from twinform.compiler.input.mjcf.pieces import Numbers, Piece, placed_at
+from twinform.compiler.input.mjcf.number_lists import Numbers
+from twinform.compiler.input.mjcf.pieces import Piece, placed_at
 from twinform.ir import Box, Capsule, Cylinder, Element, Ellipsoid, Heightmap, Mesh, Opaque, Plane, Sphere
 from twinform.ir.geometry import Shape
 from twinform.ir.node import Vector3

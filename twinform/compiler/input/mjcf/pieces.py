@@ -8,13 +8,12 @@ import math
 from collections import Counter
 from collections.abc import Iterator
 
+from twinform.compiler.input.mjcf.number_lists import Numbers
 from twinform.diagnostics import Location, Source
 from twinform.ir import Element, Pose
 from twinform.ir.transform import Transform, rounded
 from twinform.schemas import XmlElement
 from twinform.schemas.xml import children
-
-Numbers = tuple[float, ...]
 
 
 class Piece:
