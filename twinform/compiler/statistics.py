@@ -239,8 +239,11 @@ class ModelStatistics:
     cost: Cost
 
 
-def _measure_model(model: Model, format_: Format, meshes: tuple[MeshCost, ...]) -> ModelStatistics:
-    """Count what a model is made of; automatic inertias were computed before, where that is possible."""
+def _measure_model(model: Model, usual: float | None, meshes: tuple[MeshCost, ...]) -> ModelStatistics:
+    """Count what a model is made of; automatic inertias were computed before, where that is possible.
+
+    `usual` is the mass of a link without one.
+    """
     nodes = list(walk(model))
     links = [node for node in nodes if isinstance(node, Link)]
     joints = [node for node in nodes if isinstance(node, Joint)]
@@ -256,8 +259,8 @@ def _measure_model(model: Model, format_: Format, meshes: tuple[MeshCost, ...]) 
         dof=sum(map(_count_freedom, joints)),
         loops=loops,
         depth=depth,
-        mass=sum(mass for mass in masses if mass is not None) + assumed * (MASS[format_] or 0.0),
-        masses_assumed=assumed if MASS[format_] else 0,
+        mass=sum(mass for mass in masses if mass is not None) + assumed * (usual or 0.0),
+        masses_assumed=assumed if usual else 0,
         masses_unknown=unknown,
         visuals=_count_by_name(_kind(node) for node in nodes if isinstance(node, Visual)),
         collisions=_count_by_name(_kind(node) for node in nodes if isinstance(node, Collision)),
@@ -313,9 +316,11 @@ def measure(loaded: LoadResult, document: Document, search: SearchPath, *, meshe
     beside = Path(loaded.path)
     whole = _complete(document, LocalAssets(search, beside) if meshes else NO_ASSETS)
     files = MeshFiles(search, beside, meshes)
+    # In MJCF a body without mass is fixed, and weighs nothing.
+    usual = None if loaded.is_mjcf else MASS[document.format]
 
     def counted(models: Iterable[Model]) -> tuple[ModelStatistics, ...]:
-        return tuple(_measure_model(model, document.format, files.costs(model)) for model in models)
+        return tuple(_measure_model(model, usual, files.costs(model)) for model in models)
 
     worlds = tuple(
         WorldStatistics(

@@ -37,6 +37,7 @@ from twinform.passes.carriers.carriers import NAMESPACE
 from twinform.passes.carriers.carriers import PREFIX as TF
 from twinform.passes.carriers.mjcf_texts import ATTACHED, DOCUMENT, LOOP, PREFIXES, SEVERAL
 from twinform.passes.carriers.partial_nodes import REST, WRITTEN, Merging, is_rest, written_name, written_names
+from twinform.passes.legalise.to_mjcf.rotors import with_rotors
 from twinform.passes.legalise.to_sdf.restore_frames import RestoreFrames
 from twinform.passes.legalise.to_sdf.restore_nested import NameScopes, RestoreNested
 from twinform.passes.sdf_versions import change_version, lower_meaning
@@ -147,7 +148,7 @@ class _Merged:
         for each in left:
             self._stale(f"joint {each.name!r} is no joint of type {each.type} any more", each)
         self.joints = [each for each in self.joints if each not in left]
-        model = self._attached(self._merged(self._with_loops(model)))
+        model = with_rotors(self._attached(self._merged(self._with_loops(model))))
         model = without_assets(model, self.spellings.agreed)
         for stale in self.merging.stale:
             what = f"{type(stale).__name__.lower()} {getattr(stale, 'name', None) or ''}".strip()

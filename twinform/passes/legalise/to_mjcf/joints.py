@@ -129,6 +129,8 @@ def _element(
         attributes += [*ends, *_effort(context, joint, limit)]
     if axis is not None and axis.dynamics is not None:
         attributes += _dynamics(axis.dynamics)
+    if kind != "ball" and joint.type not in TWO_AXES and (rotor := context.rotors.get(between.name)):
+        attributes.append(("armature", rotor.armature))
     return make_element("joint", attributes, (), joint.source)
 
 

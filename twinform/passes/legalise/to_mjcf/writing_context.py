@@ -34,6 +34,7 @@ from twinform.passes.framework.assets import NO_ASSETS, Assets
 from twinform.passes.legalise.to_mjcf.contact_plan import ContactPlan
 from twinform.passes.legalise.to_mjcf.friction import Friction, friction_priorities
 from twinform.passes.legalise.to_mjcf.kept_mjcf import ROOT, kept_elements
+from twinform.passes.legalise.to_mjcf.rotors import Rotor, rotors_of
 from twinform.passes.shared.replaced_shapes import ShapeReplacer
 
 _RESERVED = {"body": frozenset({"world"})}
@@ -182,6 +183,11 @@ class MjcfContext:
             FrameError: an end of a joint is not known, or frames go round in a circle.
         """
         return ContactPlan(self.holder, self.tree, self.static_links, is_of_mjcf=self.is_of_mjcf)
+
+    @cached_property
+    def rotors(self) -> Mapping[str, Rotor]:
+        """The rotors of motors, by the scoped names of their joints."""
+        return {scope + name: each for scope, model in self.models for name, each in rotors_of(model).items()}
 
     @cached_property
     def friction_priorities(self) -> Mapping[Friction, int]:
