@@ -110,6 +110,14 @@ def test_joints_and_their_tree_are_counted(run: Run, joints: str, dof: int, dept
     assert (found["dof"], found["depth"], found["loops"]) == (dof, depth, loops)
 
 
+def test_what_stands_in_the_world_of_mjcf_weighs_nothing(run: Run) -> None:
+    body = "<body name='b' pos='0 0 1'><freejoint/><geom size='0.1' mass='2'/></body>"
+    found = stats(run, "-", text=f"<mujoco><worldbody><geom type='plane' size='1 1 1'/>{body}</worldbody></mujoco>")
+    models = [*found["models"], *(each for world in found["worlds"] for each in world["models"])]
+    assert sorted(each["mass"] for each in models) == [0.0, 2.0]
+    assert [each["masses_assumed"] for each in models] == [0, 0]
+
+
 def test_masses_that_nobody_wrote(run: Run) -> None:
     box = "<collision name='c'><geometry><box><size>1 1 1</size></box></geometry></collision>"
     plane = "<collision name='c'><geometry><plane><normal>0 0 1</normal></plane></geometry></collision>"
