@@ -2,7 +2,8 @@
 
 import importlib
 import os
-from collections.abc import Callable, Iterable
+import re
+from collections.abc import Callable, Collection, Iterable
 from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
@@ -21,6 +22,20 @@ _MOST = 3
 """So many differences are told of one file."""
 _ROBOTS = 8
 """So many robots of a world become a URDF each."""
+_MASSLESS = "counts for no mass"
+_OF_MASSES = (
+    "body_(inertia|ipos|iquat|mass|subtreemass|invweight0)|dof_(invweight0|M0)|meanmass|center|extent"
+    "|(light|cam)_poscom0"
+)
+_ACCOUNTS = (
+    (r"the tree is another one|missing: \S+: '", "stray-text", ""),
+    (r"MuJoCo has more bodies", "mjcf-only", r"<(flex|flexcomp|composite)>.* is kept as it is"),
+    (r"missing: /mujoco/body", "unknown-element", r"<body> is not an element of <mujoco>"),
+    (r"the (mass|inertia|bias)|massless-link", "unreadable-mesh", _MASSLESS),
+    (rf"array ({_OF_MASSES})$", "unreadable-mesh", _MASSLESS),
+)
+"""What a difference may come from: patterns of it, the rule, and a pattern of the message of that finding."""
+_QUOTED = re.compile(r" '[^']*'")
 
 
 class Question(StrEnum):
@@ -48,11 +63,15 @@ class PackageFile:
 
 @dataclass(frozen=True, slots=True)
 class Answer:
-    """The answer to a question about a file: what differs, or is refused; nothing where all is the same."""
+    """The answer to a question about a file: what differs, or is refused; nothing where all is the same.
+
+    `reason` is what the ledger or a finding of the conversion says about all of it, if they say so.
+    """
 
     name: str
     question: Question
     cause: str = ""
+    reason: str = ""
 
     @property
     def package(self) -> str:
@@ -70,19 +89,43 @@ def judge(file: PackageFile) -> list[Answer]:
     if model is None:
         return []
     found = _Judge(mujoco, model, file.path)
-    return [Answer(file.name, question, _cause(ask)) for question, ask in found.questions()]
+    answers: list[Answer] = []
+    for question, ask in found.questions():
+        causes = _causes(ask)
+        answers.append(Answer(file.name, question, _told(causes), reason_of(causes, found.said)))
+    return answers
 
 
-def _cause(ask: Callable[[], Iterable[str]]) -> str:
-    """The first differences, or why there is no answer."""
+def _causes(ask: Callable[[], Iterable[str]]) -> list[str]:
+    """The differences, or why there is no answer."""
     try:
-        found = list(ask())
+        return list(ask())
     except twinform.CompileError as error:
         first = next((each for each in error.diagnostics if each.is_error), error.diagnostics[0])
-        return f"{first.rule.name}: {first.message}"
+        return [f"{first.rule.name}: {first.message}"]
     except Exception as error:  # noqa: BLE001 - Drake has no narrower type
-        return f"{type(error).__name__}: {str(error).strip().partition(chr(10))[0]}"
-    return "; ".join(found[:_MOST] + ([f"and {len(found) - _MOST} more"] if len(found) > _MOST else []))
+        return [f"{type(error).__name__}: {str(error).strip().partition(chr(10))[0]}"]
+
+
+def reason_of(causes: Iterable[str], said: Collection[tuple[str, str]]) -> str:
+    """Return what a conversion said, by rule and message, of all of these differences.
+
+    Nothing where any of them passed unseen.
+    """
+    reasons = [_reason_of(each, said) for each in causes]
+    return "; ".join(dict.fromkeys(reasons)) if all(reasons) else ""
+
+
+def _reason_of(cause: str, said: Collection[tuple[str, str]]) -> str:
+    for pattern, rule, message in _ACCOUNTS:
+        if re.match(pattern, cause):
+            found = (text for name, text in said if name == rule and re.search(message, text))
+            return next((f"{rule}: {_QUOTED.sub('', text)}" for text in found), "")
+    return ""
+
+
+def _told(causes: list[str]) -> str:
+    return "; ".join(causes[:_MOST] + ([f"and {len(causes) - _MOST} more"] if len(causes) > _MOST else []))
 
 
 class _Judge:
@@ -91,6 +134,8 @@ class _Judge:
     def __init__(self, mujoco: Any, model: Any, path: Path) -> None:
         self.mujoco, self.model, self.path = mujoco, model, path
         self.compiled = without_rotors(mujoco, path)
+        self.said: dict[tuple[str, str], None] = {}
+        """The rules and messages of what conversions of the file found, and of their ledgers."""
 
     def questions(self) -> Iterable[tuple[Question, Callable[[], Iterable[str]]]]:
         """Yield what can be asked: what is not read is not converted."""
@@ -117,7 +162,11 @@ class _Judge:
             yield Question.URDF_HOME, lambda: self._home(self._convert(self.path, "urdf").text, ".urdf")
 
     def _convert(self, path: Path, to: Language, model: str | None = None) -> Conversion:
-        return twinform.convert(path, to=to, model=model, paths=[PACKAGES])
+        made = twinform.convert(path, to=to, model=model, paths=[PACKAGES])
+        if path == self.path:
+            said = [*made.diagnostics, *made.ledger.entries]
+            self.said.update(dict.fromkeys((each.rule.name, each.message) for each in said))
+        return made
 
     def _tree(self) -> Iterable[str]:
         one, other = (_plain(text) for text in (self.path.read_bytes(), self._convert(self.path, "mjcf").text.encode()))

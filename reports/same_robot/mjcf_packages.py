@@ -24,7 +24,8 @@ reads. Asked of each is:
   of nothing, and a written inertial where the source leaves it to MuJoCo. A world does not come home from URDF, which
   holds a robot alone.
 
-A cell has how many files are the same, and of how many."""
+A cell has how many files are the same, and of how many. Differences are explained where the conversion itself says
+why, in its ledger or a finding: then the reason begins with the name of the rule. Other reasons were found by hand."""
 
 
 def measure(sample: Sample) -> Findings:
@@ -41,8 +42,8 @@ def measure(sample: Sample) -> Findings:
 
 
 def why(one: Answer) -> str:
-    """Why an answer is right as it is; empty where nobody knows."""
-    return KNOWN.why(one.question.name.lower(), file=one.name, cause=one.cause)
+    """Why an answer is right as it is: by the conversion itself, or by hand; empty where nobody knows."""
+    return one.reason or KNOWN.why(one.question.name.lower(), file=one.name, cause=one.cause)
 
 
 def _rows(found: list[Answer]) -> list[list[object]]:

@@ -86,7 +86,7 @@ def differences(mujoco: Any, one: Any, other: Any) -> list[str]:
     import numpy as np  # noqa: PLC0415 - it comes with MuJoCo, which is not everywhere
 
     found = [name for name, a, b in _arrays(one, other) if not (_are_equal(np, a, b) or _are_turns(np, name, a, b))]
-    if _OF_INERTIA.intersection(found) and _are_equal(np, _inertias(mujoco, np, one), _inertias(mujoco, np, other)):
+    if _OF_INERTIA.intersection(found) and _are_equal(np, body_inertias(mujoco, one), body_inertias(mujoco, other)):
         # the principal axes of one matrix, in another order or sign
         found = [name for name in found if name not in _OF_INERTIA]
     if "actuator_ctrlrange" in found and _are_equal(np, _controls(np, one), _controls(np, other)):
@@ -143,8 +143,10 @@ def _controls(np: Any, model: Any) -> Any:
     return np.where(np.asarray(model.actuator_ctrllimited)[:, None], model.actuator_ctrlrange, 0.0)
 
 
-def _inertias(mujoco: Any, np: Any, model: Any) -> Any:
+def body_inertias(mujoco: Any, model: Any) -> Any:
     """Return the inertia of each body about its own axes."""
+    import numpy as np  # noqa: PLC0415 - it comes with MuJoCo, which is not everywhere
+
     found: list[Any] = []
     for quaternion, moments in zip(model.body_iquat, model.body_inertia, strict=True):
         matrix = np.zeros(9)

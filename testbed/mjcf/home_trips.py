@@ -6,12 +6,13 @@ that the source leaves to MuJoCo is written in what comes back: there it is comp
 
 import os
 from collections.abc import Iterator
+from copy import deepcopy
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from testbed.mjcf.canonical_models import canonical, differences, load_canonical
+from testbed.mjcf.canonical_models import body_inertias, canonical, differences, load_canonical
 from twinform.compiler.input.mjcf.references import own_references
 from twinform.compiler.normal_form import NormalForm
 from twinform.schemas import XmlElement
@@ -19,14 +20,19 @@ from twinform.schemas import XmlElement
 _COMPUTED = frozenset({
     "bvh_aabb", "geom_sameframe", "body_sameframe", "dof_length", "meansize", "meanmass", "body_simple",
     "dof_simplenum", "site_sameframe", "meaninertia",
+    "M_colind", "M_rowadr", "M_rownnz", "mapD2M", "mapM2D", "mapM2M", "nC",
 })  # fmt: skip
-"""Arrays that MuJoCo computes of others, with single bits for whether these are exactly equal."""
+"""Arrays that MuJoCo computes of others, with single bits for whether these are exactly equal.
+
+The mass matrix is stored without its zeros where MuJoCo finds a body simple.
+"""
 _FLOATS = 1e-5
 _OF_MASS = frozenset({
     "body_mass", "body_subtreemass", "body_ipos", "body_inertia", "body_iquat", "body_invweight0", "dof_invweight0",
-    "dof_M0", "actuator_acc0", "tendon_invweight0",
+    "dof_M0", "actuator_acc0", "tendon_invweight0", "center", "extent", "light_poscom0", "cam_poscom0",
 })  # fmt: skip
-"""Arrays that follow from the masses of bodies."""
+"""Arrays that follow from the masses and centers of bodies."""
+_OF_INERTIA = frozenset({"body_iquat", "body_inertia"})
 _SIZES = {"sphere": 1, "cylinder": 2, "capsule": 2}
 """How many numbers the size of a shape has, where it has not three."""
 _OF_PARTS = frozenset({"equality", "actuator", "contact", "sensor"})
@@ -53,16 +59,46 @@ def came_home(mujoco: Any, path: Path, model: Any, text: str) -> list[str]:
     if source is None or back is None:
         raise ValueError("; ".join(each.message for each in found) or "it has no canonical form")
     put_in_order(source, back)
-    home = load_canonical(mujoco, path, back)
+    model, home = _compile(mujoco, path, model, source, back)
     arrays = set(differences(mujoco, model, home)) - _COMPUTED
     if model.nmesh:
-        arrays -= {each for each in _OF_MASS & arrays if _are_close(getattr(model, each), getattr(home, each))}
+        arrays -= _of_single_precision(mujoco, model, home, arrays)
     return [*(f"array {each}" for each in sorted(arrays)), *_in_normal_form(source, back)]
+
+
+def _compile(mujoco: Any, path: Path, model: Any, source: XmlElement, back: XmlElement) -> tuple[Any, Any]:
+    """Return MuJoCo's models of both trees.
+
+    Where a free body is put into its principal axes, of which any order will do, both are compiled as they are drawn.
+    """
+    if source.find(".//freejoint[@align]") is None and source.find("compiler[@alignfree]") is None:
+        return model, load_canonical(mujoco, path, back)
+    drawn = deepcopy(source), deepcopy(back)
+    for tree in drawn:
+        for each in tree.iter("freejoint", "joint", "compiler"):
+            each.attrib.pop("align", None)
+            each.attrib.pop("alignfree", None)
+    one, other = (load_canonical(mujoco, path, each) for each in drawn)
+    return one, other
+
+
+def _of_single_precision(mujoco: Any, one: Any, other: Any, names: set[str]) -> set[str]:
+    """Return the arrays whose difference is that of the points of meshes, which MuJoCo has in single precision."""
+    close = {each for each in _OF_MASS & names if _are_close(_array(one, each), _array(other, each))}
+    # of two nearly equal moments the axes are chance, and of one matrix in another order
+    is_alike = _OF_INERTIA & names and _are_close(*(body_inertias(mujoco, each) for each in (one, other)))
+    return close | (_OF_INERTIA if is_alike else set())
+
+
+def _array(model: Any, name: str) -> Any:
+    return np.asarray(getattr(model, name) if hasattr(model, name) else getattr(model.stat, name))
 
 
 def _are_close(one: Any, other: Any) -> bool:
     """Tell whether masses are the same but for the points of meshes, which MuJoCo has in single precision."""
-    return one.shape == other.shape and bool(np.allclose(one, other, rtol=_FLOATS, atol=_FLOATS * float(np.max(one))))
+    return one.shape == other.shape and bool(
+        np.allclose(one, other, rtol=_FLOATS, atol=_FLOATS * float(np.max(np.abs(one))))
+    )
 
 
 def _in_normal_form(source: XmlElement, back: XmlElement) -> Iterator[str]:
