@@ -131,3 +131,58 @@ def test_a_floor_is_no_robot_without_carriers_either(run: Run, tmp_path: Path) -
     assert robot.startswith('<?xml version="1.0"?>\n<robot name="arm">')
     (tmp_path / "arm.urdf").write_text(robot)
     assert run("sync", tmp_path / "arm.urdf", path, "--check").stdout.endswith("1 up to date\n")
+
+
+_ARM = """\
+<mujoco model="arm">
+  <include file="common/classes.xml"/>
+  <worldbody>
+    <body name="arm">
+      <joint name="swing" class="hinge"/>
+      <include file="common/gripper.xml"/>
+      <geom size=".1" class="shell" material="steel"/>
+    </body>
+  </worldbody>
+</mujoco>
+"""
+_SCENE = """\
+<mujoco model="scene">
+  <include file="arm.xml"/>
+  <include file="common/drives.xml"/>
+  <worldbody><geom type="plane" size="1 1 1"/></worldbody>
+</mujoco>
+"""
+_FRAGMENTS = {
+    "common/classes.xml": """\
+<mujocoinclude>
+  <default><default class="shell"><geom rgba="1 0 0 1"/></default></default>
+  <asset><material name="steel"/></asset>
+</mujocoinclude>
+""",
+    "common/gripper.xml": """\
+<mujoco>
+  <body name="gripper"><geom size=".1" material="stel"/></body>
+</mujoco>
+""",
+    "common/drives.xml": '<mujocoinclude><actuator><motor joint="swing"/></actuator></mujocoinclude>\n',
+}
+
+
+def test_fragments_are_judged_where_they_are_included(run: Run, tmp_path: Path) -> None:
+    """As in many packages: a robot, a scene around it, and fragments in a folder, one of them by the root of a model."""
+    (tmp_path / "common").mkdir()
+    for name, text in {"arm.xml": _ARM, "scene.xml": _SCENE, **_FRAGMENTS}.items():
+        (tmp_path / name).write_text(text)
+    shown = run("check", tmp_path).stdout
+    assert shown.count("error: ") == 2, shown  # each finding once, though the scene includes the arm
+    assert f"{tmp_path}/arm.xml:5:34: error: there is no default class 'hinge' [unknown-class]" in shown
+    assert f"{tmp_path}/common/gripper.xml:2:50: error: 'material' of <geom> is 'stel'" in shown
+    assert "(expanded)" not in shown
+
+
+@pytest.mark.parametrize("target", ["mjcf", "sdf", "urdf"])
+def test_an_unknown_class_is_an_error_for_each_target(run: Run, pendulum: Path, target: str) -> None:
+    pendulum.write_text(PENDULUM.replace("<geom", '<geom class="visul"'))
+    done = run("convert", pendulum, "--to", target)
+    assert done.exit_code == 1
+    assert "error: there is no default class 'visul' [unknown-class]" in done.stderr

@@ -8,6 +8,7 @@ import twinform
 from tests.unit.server.test_navigation import opened, renamed
 from twinform.server.document_names import names_of, undefined_names
 from twinform.server.document_outline import outline
+from twinform.server.hover import hover
 from twinform.server.navigation import RenameRefusedError, definitions, rename
 
 _MODEL = """\
@@ -95,3 +96,21 @@ def test_the_outline_has_bodies_with_what_is_in_them(path: Path) -> None:
     world = next(each for each in root.children or () if each.name == "<worldbody>")
     hip = next(each for each in world.children or () if each.name == "hip")
     assert [each.name for each in hip.children or ()] == ["hip", "hip", "hip", "a::knee"]
+
+
+@pytest.mark.parametrize(
+    ("at", "expected"),
+    [
+        ('<mot|or name="drive"', "motor"),
+        ('material="w|ood"', "material"),
+        ('cond|im="4"', "condim"),
+        ("<fr|amepos", "framepos"),
+    ],
+)
+def test_what_stands_under_the_cursor_is_explained(at: str, expected: str, path: Path) -> None:
+    session, document = opened(path)
+    before, _, behind = at.partition("|")
+    found = hover(session, document, _MODEL.index(before + behind) + len(before))
+    assert found is not None
+    assert expected in str(found.contents)
+    assert "MJCF" in str(found.contents)

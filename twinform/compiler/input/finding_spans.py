@@ -117,6 +117,7 @@ _OF_ROOT = frozenset({rules.UNKNOWN_ROOT, rules.OLD_ROOT})
 # nothing. Columns take 0.24 s for 1,000 findings in a file of 10,000 links, whose check takes 0.7
 # s. expat would need 3.0 s and refuses what is repaired, so one regular expression finds the tags.
 _MOST_ON_LINE = 1000
+_MJCF = "/mujoco/"
 
 
 def located(loaded: LoadResult) -> tuple[Diagnostic, ...]:
@@ -128,7 +129,7 @@ def with_columns(diagnostics: tuple[Diagnostic, ...], files: SourceFiles) -> tup
     """Return findings with columns, sorted by file and line; `files` are the files that they are about."""
     texts: dict[str, FindingSpans | None] = {}
     with garbage_collection_paused():
-        found = [_with_column(each, files, texts) for each in diagnostics]
+        found = [_without_spliced(_with_column(each, files, texts)) for each in diagnostics]
     order = {file: number for number, file in enumerate(dict.fromkeys(each.location.file for each in found))}
     return tuple(sorted(found, key=lambda each: (order[each.location.file], each.location.line, each.location.column)))
 
@@ -156,6 +157,14 @@ def _with_end(where: Location, files: SourceFiles) -> Location:
 def _is_expanded(one: Diagnostic) -> bool:
     """Whether a finding is about the expansion of a xacro file, where it has a second place."""
     return bool(one.related) and one.related[0].file.endswith(expanded_name(""))
+
+
+def _without_spliced(one: Diagnostic) -> Diagnostic:
+    """Leave out the place in a text that nobody can see: MJCF with what it includes, or a place without a line."""
+    if not _is_expanded(one):
+        return one
+    is_spliced = f"{one.related[0].path}/".startswith(_MJCF)
+    return replace(one, related=one.related[1:]) if is_spliced or not one.related[0].line else one
 
 
 @dataclass(frozen=True)  # no slots: the lines are kept in the dictionary

@@ -361,8 +361,12 @@ def read_document(
     document = build_document(build, used_up(root) if is_used_up else root, context)
     if errors:
         validate(root, context, engine, errors)
-    if is_mjcf and not load_options.as_mjcf and not sink.has_errors:
-        from twinform.compiler.input.mjcf import lower_mjcf  # noqa: PLC0415 - few files are MJCF
+    if is_mjcf and load_options.as_mjcf and not sink.has_errors:
+        from twinform.compiler.input.mjcf import check_classes  # noqa: PLC0415 - few files are MJCF
+
+        check_classes(root, context, load_options)
+    elif is_mjcf and not sink.has_errors:
+        from twinform.compiler.input.mjcf import lower_mjcf  # noqa: PLC0415 - as above
 
         lowered = lower_mjcf(root, context, load_options)
         context.broken = context.broken or lowered is None

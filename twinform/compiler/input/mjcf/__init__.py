@@ -8,13 +8,13 @@ links, joints and frames, and carriers add what MJCF cannot say.
 from twinform.compiler.input.load_options import LoadOptions
 from twinform.compiler.input.mjcf.carried_texts import several_trees, take_texts
 from twinform.compiler.input.mjcf.lower import lower
-from twinform.compiler.input.mjcf.normalize import normalize
+from twinform.compiler.input.mjcf.normalize import check_classes, normalize
 from twinform.compiler.input.mjcf.note_notation import note_notation
 from twinform.compiler.input.mjcf.one_model import join_trees
 from twinform.ir import Document
 from twinform.schemas import Context, XmlElement
 
-__all__ = ["lower_mjcf"]
+__all__ = ["check_classes", "lower_mjcf"]
 
 
 def lower_mjcf(root: XmlElement, context: Context, load_options: LoadOptions) -> Document | None:

@@ -1,6 +1,6 @@
 """Checks the names of canonical MJCF: each is unique among things of its kind, and what is referred to is there."""
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator, Mapping
 
 from twinform.compiler.input.mjcf.element_findings import ElementFindings
 from twinform.compiler.input.mjcf.references import ASSET_KINDS, KINDS, SECTION_KINDS, kind_of, own_references
@@ -11,6 +11,8 @@ _WORLD = "world"
 _WORDS = {"geom": "geom", "hfield": "height field", "key": "keyframe", "exclude": "excluded pair"}
 _REFERRED = frozenset({*KINDS.values(), *ASSET_KINDS, *SECTION_KINDS.values(), "tuple"}) - {"model"}
 
+_MAKERS: Mapping[str, Collection[str]] = {"flexcomp": ("body",), "composite": KINDS.values()}
+"""What makes parts; a `composite` is reported itself, since newer versions have none."""
 _SECTIONS = frozenset({
     "asset", "worldbody", "contact", "deformable", "equality", "tendon", "actuator", "sensor", "custom",
 })  # fmt: skip
@@ -49,12 +51,14 @@ def check_frame_names(root: XmlElement, findings: ElementFindings) -> None:
 
 def check_references(root: XmlElement, named: Named, findings: ElementFindings) -> None:
     """Report what refers to nothing."""
-    made_up = next(root.iter("flexcomp"), None) is not None  # it makes bodies, whose names are not known here
+    made_up: set[str] = set()  # the kinds of parts that are made, and whose names are not known here
+    for tag, kinds in _MAKERS.items():
+        made_up.update(kinds if next(root.iter(tag), None) is not None else ())
     sections = (section for section in root.iterchildren("*") if section.tag in _SECTIONS)  # MuJoCo skips others
     for element in (element for section in sections for element in section.iter("*")):
         for reference in own_references(element):
             kind, name = reference.kind, reference.name
-            if kind not in _REFERRED or name in named[kind] or (kind == "body" and (name == _WORLD or made_up)):
+            if kind not in _REFERRED or name in named[kind] or kind in made_up or (kind == "body" and name == _WORLD):
                 continue
             word = _WORDS.get(kind, kind)
             near = nearest_name(name, list(named[kind]))

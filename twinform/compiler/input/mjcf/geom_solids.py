@@ -57,6 +57,7 @@ class GeomSolids:
     def __init__(self, assets: AssetTable, meshes: Meshes, sink: DiagnosticSink, *, by_bounds: bool = False) -> None:
         self._by_bounds = by_bounds
         self._uncounted: set[tuple[str, str | None]] = set()
+        self._unmeasured: set[str | None] = set()
         self._assets = assets
         self._meshes = meshes
         self._sink = sink
@@ -123,7 +124,7 @@ class GeomSolids:
     def _report_uncounted(self, geom: Piece) -> None:
         """Report a geom whose mass is not known, once for each mesh."""
         kind, mesh = geom.peek("type") or "sphere", geom.peek("mesh")
-        if (kind, mesh) in self._uncounted:
+        if (kind, mesh) in self._uncounted or mesh in self._unmeasured:
             return
         self._uncounted.add((kind, mesh))
         what = f"geom {geom.name!r}" if geom.name else "this geom"
@@ -142,7 +143,7 @@ class GeomSolids:
         mesh = found.shape if found else None
         way = asset.peek("inertia") or _LEGACY
         if not isinstance(mesh, Mesh):
-            return None if asset.has("file") else _measure_vertices(asset, way)
+            return None if asset.has("file") else self._of_vertices(asset, way)
         try:
             triangles = self._meshes.triangles(mesh)
         except MeshError as error:
@@ -155,6 +156,20 @@ class GeomSolids:
         faces = np.frombuffer(triangles.faces, dtype=np.int64).reshape(-1, 3)
         return _measure_faces(points, faces, way)
 
+    def _of_vertices(self, asset: Piece, way: str) -> Solid | None:
+        """Measure a mesh whose vertices stand in its asset; report that a hull is needed and nothing makes hulls."""
+        needed = ("numpy",) if asset.has("face") and way != _CONVEX else ("numpy", "scipy")
+        missing = next((each for each in needed if find_spec(each) is None), None)  # which not everybody installs
+        if missing is None or not asset.has("vertex"):
+            return _measure_vertices(asset, way) if asset.has("vertex") else None
+        message = (
+            f"the mesh {asset.name!r} counts for no mass: {missing}, which measures its vertices, is not installed"
+        )
+        hint = "pip install 'twinform[meshes]', or write an <inertial> with the mass of its body"
+        self._sink.report(rules.UNREADABLE_MESH, message, asset.location, found=asset.name, help=hint)
+        self._unmeasured.add(asset.name)
+        return None
+
 
 def _of_density(measured: Solid, density: float) -> Solid:
     return Solid(measured.mass * density, measured.center, _times(measured.inertia, density))
@@ -165,7 +180,7 @@ def _measure_vertices(asset: Piece, way: str) -> Solid | None:
     numbers = asset.peek_numbers("vertex")
     back = placed_at(asset.peek_numbers("refpos"), asset.peek_numbers("refquat")).inverse()
     scale = asset.peek_numbers("scale") or (1.0, 1.0, 1.0)
-    if len(numbers) < _FEWEST or len(numbers) % 3 or find_spec("scipy") is None:  # which not everybody installs
+    if len(numbers) < _FEWEST or len(numbers) % 3:
         return None
     import numpy as np  # noqa: PLC0415 - only meshes need it
 

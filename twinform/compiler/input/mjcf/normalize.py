@@ -51,6 +51,14 @@ def normalize(root: XmlElement, context: Context, load_options: LoadOptions) -> 
     return copy
 
 
+def check_classes(root: XmlElement, context: Context, load_options: LoadOptions) -> None:
+    """Report classes that are not there, for a file that stays what it is; with includes they may be in others."""
+    if next(root.iter("include"), None) is None:
+        copy, originals = numbered_copy(root)
+        findings = ElementFindings(context, originals)
+        DefaultClasses.of(copy, findings, CopyBudget.of(load_options.limits)).merge_into(copy)
+
+
 def prepare(root: XmlElement, findings: ElementFindings, attaching: Attaching) -> CompilerSettings:
     """Make all canonical in a tree but its frames and replicates, and return the settings of its compiler."""
     settings = CompilerSettings.of(root)

@@ -199,7 +199,8 @@ class _Splicing:
         parser = etree.XMLParser(remove_comments=True, resolve_entities=False, no_network=True)
         lines = (element.sourceline or 0 for element in etree.fromstring(text, parser).iter())
         pairs = zip(lines, (Location(part.file, part.line) for part in parts), strict=True)
-        return Expansion(text, LineOrigins.of(pairs), {}, self.texts, parts)
+        whole = (0, Location(self.sink.file))  # what is found about all of the text
+        return Expansion(text, LineOrigins.of([whole, *pairs]), {}, self.texts, parts)
 
 
 def _one_on_each_line(root: XmlElement) -> XmlElement:
