@@ -17,7 +17,7 @@ from twinform.ir import Axis, Dynamics, Limit, Node, Opaque, Surface, rewrite, w
 from twinform.ir.node import NOT_CONTENT, are_nodes
 from twinform.ir.record import field_values, fields_of
 from twinform.passes.carriers.annotations import annotation, find_annotation, is_annotation, without_annotation
-from twinform.passes.carriers.carriers import is_ours
+from twinform.passes.carriers.carriers import is_carrier, is_ours
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 
@@ -210,10 +210,10 @@ def is_bare(partial: Node) -> bool:
 
 
 def _holds(node: Node) -> bool:
-    """Whether a node has values of its own, or parts that are not ours."""
+    """Whether a node has values of its own, or parts that are not ours alone: URDF's own are in a carrier."""
     values = ((name, value) for name, value in field_values(node).items() if name not in _APART)
     has_value = any(not (_is_unwritten(value) or isinstance(value, Node) or are_nodes(value)) for _, value in values)
-    return has_value or any(not is_ours(part) for part in node.opaque)
+    return has_value or any(not is_ours(part) or is_carrier(part, "urdf") for part in node.opaque)
 
 
 def written_name(partial: Node) -> str | None:

@@ -22,6 +22,7 @@ from twinform.ir import Element, Frame, Joint, Light, Link, Mimic, Opaque, Pose,
 from twinform.ir.frames import WORLD
 from twinform.passes.carriers.annotations import MADE_NAME, annotate_synthesized, with_annotation
 from twinform.passes.carriers.token_mass import TOKEN
+from twinform.passes.legalise.to_mjcf.writing_context import fixed_joint_name
 
 JOINTS = ("joint", "freejoint")
 
@@ -186,7 +187,7 @@ class TreeLowering:
             self.parts.joints.append(self.names.marked(with_rest(made, rest), joint))
 
     def _fixed(self, here: _Placed, name: str) -> Joint:
-        made = self.names.make(f"{name}_fixed_joint")
+        made = self.names.make(fixed_joint_name(name))
         joint = Joint.unchecked(
             name=made, type="fixed", parent=here.parent or WORLD, child=name, source=here.body.source
         )

@@ -26,6 +26,7 @@ from twinform.ir.frames import MODEL, WORLD, FrameError, FrameGraph
 from twinform.ir.scopes import scoped_models
 from twinform.passes.carriers.annotations import (
     FROM,
+    MADE_NAME,
     came_from,
     find_annotation,
     is_synthesized,
@@ -38,6 +39,7 @@ from twinform.passes.carriers.carriers import PREFIX as TF
 from twinform.passes.carriers.mjcf_texts import ATTACHED, DOCUMENT, LOOP, PREFIXES, SEVERAL
 from twinform.passes.carriers.partial_nodes import REST, WRITTEN, Merging, is_rest, written_name, written_names
 from twinform.passes.legalise.to_mjcf.rotors import with_rotors
+from twinform.passes.legalise.to_mjcf.writing_context import fixed_joint_name
 from twinform.passes.legalise.to_sdf.restore_frames import RestoreFrames
 from twinform.passes.legalise.to_sdf.restore_nested import NameScopes, RestoreNested
 from twinform.passes.sdf_versions import change_version, lower_meaning
@@ -69,11 +71,14 @@ def _with_parts(document: Document, texts: tuple[CarriedText, ...], root: XmlEle
     They are those of a file that was attached, or of what somebody has added to a file of SDF that was made of MJCF.
     """
     merging = Merging(Spellings(root))
-    partials = {
-        (type(each.node), written_name(each.node)): without_annotation(each.node, WRITTEN, SEVERAL) for each in texts
-    }
+    links = [each for each in nodes_of(texts, "link") if isinstance(each, Link)]
+    joints = [each for each in nodes_of(texts, "joint") if isinstance(each, Joint)]
+    back = sensors_back(links, joints, None, root, sink)
+    others = (each.node for each in texts if each.kind not in {"link", "joint"})
+    nodes = (*back.links, *back.joints, *others)
+    partials = {(type(each), written_name(each)): without_annotation(each, WRITTEN, SEVERAL) for each in nodes}
     # A fixed joint has no name in the file, and is known by its child.
-    fixed = {each.node.child: each.node for each in texts if isinstance(each.node, Joint) and each.node.type == "fixed"}
+    fixed = {each.child: each for each in back.joints if each.type == "fixed"}
 
     def merged(node: AnyPart) -> AnyPart:
         partial = partials.get((type(node), node.name))
@@ -84,15 +89,19 @@ def _with_parts(document: Document, texts: tuple[CarriedText, ...], root: XmlEle
         return merging.merge(node, partial)
 
     def in_model(model: Model) -> Model:
+        model = without_parts_of_sensors(model, back.parts)
         told_apart = partials.get((Model, model.name))
         if isinstance(told_apart, Model) and told_apart.self_collide is False and model.self_collide:
             model = kept_apart(model, root)
             if model.self_collide:
                 report_stale(sink, f"links of model {model.name!r} touch in the file", told_apart.source)
+        holds = tuple(_added_holds(model, fixed.values()))
+        if isinstance(told_apart, Model) and told_apart.static is False and model.static:
+            model = _held(model, {each.child for each in holds})
         return replace_fields(
             merged(model),
             links=tuple(merged(each) for each in model.links),
-            joints=(*(merged(each) for each in model.joints), *_added_holds(model, fixed.values())),
+            joints=(*(merged(each) for each in model.joints), *holds),
             frames=tuple(merged(each) for each in model.frames),
         )
 
@@ -109,6 +118,20 @@ def _added_holds(model: Model, fixed: Iterable[Joint]) -> Iterable[Joint]:
     held = {each.child for each in model.joints}
     loose = {each.name for each in model.links if each.name not in held} if model.static else set[str]()
     return (each for each in fixed if not is_rest(each) and each.child in loose)
+
+
+def _held(model: Model, held: Collection[str | None]) -> Model:
+    """A model that only stands still because fixed joints hold it, of which some are carried."""
+    children = {*held, *(each.child for each in model.joints)}
+    loose = (each for each in model.links if each.name not in children)
+    holds = (
+        Joint.unchecked(
+            name=fixed_joint_name(each.name), type="fixed", parent=WORLD, child=each.name, source=each.source
+        )
+        for each in loose
+    )
+    made = tuple(with_annotation(each, MADE_NAME, each.name) for each in holds)
+    return model.copy(static=None, joints=(*model.joints, *made))
 
 
 def _is_free(root: XmlElement) -> bool:

@@ -11,7 +11,7 @@ from twinform.diagnostics import rules
 from twinform.ir import Element, Link
 from twinform.ir.frames import WORLD
 from twinform.ir.kinematic_tree import JointBetween
-from twinform.passes.carriers.annotations import MADE_NAME, find_annotation, is_synthesized
+from twinform.passes.carriers.annotations import MADE_NAME, WORLDBODY, find_annotation, is_synthesized
 from twinform.passes.carriers.joint_chains import part_of
 from twinform.passes.legalise.changed_names import source_name
 from twinform.passes.legalise.to_mjcf.elements import make_element, placement
@@ -175,5 +175,5 @@ def _world_link(context: MjcfContext) -> str | None:
     for scope, model in context.models:
         if model.static and find_annotation(model, MADE_NAME) is not None and len(model.links) == 1 and not model.pose:
             link = model.links[0]
-            return scope + link.name if link.name == model.name and not link.pose else None
+            return scope + link.name if link.name == model.name == WORLDBODY and not link.pose else None
     return None

@@ -86,15 +86,15 @@ def geom_elements(context: MjcfContext, body: Body) -> list[Element]:
 def _group(context: MjcfContext, part: Visual | Collision, group: int, *, hides: bool) -> list[tuple[str, Value]]:
     """The group of a geom: collisions are in one of their own where there are visuals; one of MJCF stays in its own.
 
-    In a file of MJCF a collision without a visual is shown by nothing: it is wholly transparent, or `hides` is whether
-    others in its body have it hidden. Otherwise it was added to the robot while it was in another language.
+    In a file of MJCF a collision without a visual is shown by nothing: its group is hidden, it is wholly transparent,
+    or `hides` is whether others in its body have it hidden. Otherwise it was added to the robot while that was in
+    another language, or its visual was deleted there.
     """
-    is_touched = group == _TOUCHED
-    if _kept_group(part) or (is_touched and not context.has_visuals):
-        return []
-    if context.is_of_mjcf and (not is_touched or hides or _is_transparent(context, part)):
-        return []
-    return [("group", str(group))]
+    is_touched, kept = group == _TOUCHED, _kept_group(part)
+    if not context.is_of_mjcf:
+        return [] if kept or (is_touched and not context.has_visuals) else [("group", str(group))]
+    is_hidden = int(kept or 0) >= _TOUCHED or (hides and kept in {"", "0"}) or _is_transparent(context, part)
+    return [("group", str(group))] if is_touched and not is_hidden else []
 
 
 def _kept_group(part: Visual | Collision) -> str:

@@ -3,7 +3,7 @@
 A visual with nothing but a color needs no material: its geom has the color itself.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 from twinform.ir import Color, Element, Material, Visual
@@ -18,6 +18,13 @@ MAPS: Mapping[str, str] = {
     "metalness_map": "metallic", "emissive_map": "emissive",
 }  # fmt: skip
 """The images of SDF's metal-rough materials and their roles in MJCF."""
+
+
+_WHITE = (1.0, 1.0, 1.0, 1.0)
+_SPECULAR = 0.5
+"""How bright the reflections of a material of MJCF are that says nothing of them."""
+_DIGITS = 6
+"""How many digits of a color are compared: programs that save MJCF write no more."""
 
 
 class Look(NamedTuple):
@@ -91,3 +98,43 @@ def _images(material: Material) -> Iterator[tuple[str, str]]:
         uri = material.albedo_map if name == "albedo_map" else element.text if element is not None else None
         if uri:
             yield role, uri
+
+
+def seen_material(
+    own: Sequence[float], material: Sequence[float] | None, specular: float | None, emission: float | None
+) -> Material | None:
+    """The colors with which a geom of MJCF is read; None where it shows none.
+
+    `own` is the `rgba` of the geom, which beats that of its material: `material` is None where it has no material.
+    """
+    if material is None:
+        return Material.unchecked(ambient=_clamped(own), diffuse=_clamped(own)) if own else None
+    rgba = own or material or _WHITE
+    shine = _SPECULAR if specular is None else specular
+    return Material.unchecked(
+        ambient=_clamped(rgba),
+        diffuse=_clamped(rgba),
+        specular=_clamped((shine, shine, shine, 1.0)),
+        emissive=_clamped((*(emission * each for each in rgba[:3]), 1.0)) if emission else None,
+    )
+
+
+def is_seen(material: Material, geom: Element, asset: Element | None) -> bool:
+    """Whether a geom, with the material that it names, is read with this material; its image is a file of its own."""
+    rgba = None if asset is None else _numbers(asset, "rgba")
+    specular, emission = (next(iter(_numbers(asset, name)), None) for name in ("specular", "emission"))
+    seen = seen_material(_numbers(geom, "rgba"), rgba, specular, emission)
+    return seen is not None and _rounded(material.copy(albedo_map=None)) == _rounded(seen)
+
+
+def _numbers(element: Element | None, name: str) -> tuple[float, ...]:
+    return tuple(map(float, ((None if element is None else element.get(name)) or "").split()))
+
+
+def _clamped(rgba: Sequence[float]) -> Color:
+    return tuple(min(1.0, max(0.0, each)) for each in rgba)
+
+
+def _rounded(material: Material) -> Material:
+    colors = ((name, getattr(material, name)) for name in ("ambient", "diffuse", "specular", "emissive"))
+    return material.copy(**{name: color and tuple(round(each, _DIGITS) for each in color) for name, color in colors})

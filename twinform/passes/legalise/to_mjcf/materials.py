@@ -47,7 +47,9 @@ def _of_kept_material(context: MjcfContext, name: str, found: Look, *, has_own: 
     if key not in context.files:
         context.names.setdefault("material", set()).add(name)
         context.files[key] = str(len(assets))
-        context.add("asset", make_element("material", [("name", name), *found.material]))
+        # Without a word MuJoCo shines, and SDF does not.
+        shine = [] if any(key == "specular" for key, _ in found.material) else [("specular", 0.0)]
+        context.add("asset", make_element("material", [("name", name), *found.material, *shine]))
     if has_own:
         return [("rgba", found.rgba)]
     color = ("kept color", name)

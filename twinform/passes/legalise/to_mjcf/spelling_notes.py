@@ -66,8 +66,8 @@ class SpellingNotes:
             Collision: self._on_shape,
             Inertial: _on_inertial,
             World: self._on_world,
-            Light: self._parts,
-            Sensor: lambda sensor: () if said.left_of(sensor) is None else self._parts(sensor),
+            Light: self.parts,
+            Sensor: lambda sensor: () if said.left_of(sensor) is None else self.parts(sensor),
             Joint: self._on_joint,
             Frame: self._attached,
             Model: self._offset,
@@ -133,8 +133,11 @@ class SpellingNotes:
     def _on_visual(self, visual: Visual) -> Iterable[Opaque]:
         """As on a shape, and the elements that say how it looks, if they say it in another way than SDF."""
         yield from self._on_shape(visual)
-        if visual.material is None or said_by_mjcf(visual.material) is not None:
-            return
+        if visual.material is not None and said_by_mjcf(visual.material) is None:
+            yield from self.look(visual)
+
+    def look(self, visual: Visual) -> Iterable[Opaque]:
+        """The digest of the elements that say how a visual looks, if it has a geom."""
         geom = self.file.geom(visual)
         if geom is not None:
             digest = digest_of(look_parts(dict(geom.attributes), self.file.asset))
@@ -158,7 +161,7 @@ class SpellingNotes:
             note = annotation(SHAPE_OF, attributes={"file": file})
             yield note.copy(element=note.element and note.element.copy(children=holder.children))
 
-    def _parts(self, part: Sensor | Light) -> Iterable[Opaque]:
+    def parts(self, part: Sensor | Light) -> Iterable[Opaque]:
         """The elements that a sensor or light has become."""
         parts = self.file.parts_of(part)
         names = "\n".join(f"{each.name} {each.get('name')}" for each in parts)

@@ -5,25 +5,40 @@ Each link, joint, frame, model or world has one text, which holds the partial no
 of the source, and what stands beside the model or world that is written.
 """
 
+from collections.abc import Iterable
 from functools import partial
 
 from twinform.diagnostics import rules
-from twinform.ir import Collision, Frame, Joint, Link, Model, Node, Opaque, World
+from twinform.ir import (
+    Collision,
+    Element,
+    Frame,
+    Joint,
+    Link,
+    Material,
+    Model,
+    Node,
+    Opaque,
+    Sensor,
+    Visual,
+    World,
+)
 from twinform.ir.frames import MODEL
 from twinform.ir.rewrite import census_of
 from twinform.ir.scopes import SCOPE
 from twinform.passes.carriers.annotations import MADE_NAME, find_annotation, is_synthesized, with_annotation
 from twinform.passes.carriers.carriers import NAMESPACE, bits_of_ours, is_carrier, is_ours, without_parts
 from twinform.passes.carriers.mjcf_texts import DOCUMENT, SEVERAL, bare_xml, text_element, text_name, xml_data
-from twinform.passes.carriers.partial_nodes import REST, is_bare, remainder
+from twinform.passes.carriers.partial_nodes import EXISTENCE, REST, Left, is_bare, remainder
 from twinform.passes.legalise.to_mjcf.contact_plan import MASKS
 from twinform.passes.legalise.to_mjcf.friction import without_friction
 from twinform.passes.legalise.to_mjcf.inertials import weight_of
 from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements
+from twinform.passes.legalise.to_mjcf.looks import is_seen
 from twinform.passes.legalise.to_mjcf.said_parts import without_elements
 from twinform.passes.legalise.to_mjcf.spelling_notes import SpellingNotes
 from twinform.passes.legalise.to_mjcf.what_is_said import WhatIsSaid
-from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext
+from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext, fixed_joint_name
 from twinform.passes.legalise.to_mjcf.written_file import WrittenFile
 from twinform.passes.sdf_versions import sdf_version_read
 from twinform.schemas import XmlElement, parse_version, versions_of
@@ -33,6 +48,7 @@ _MARK = f"{_OURS}{REST}"
 _GROUPS = frozenset({"axis", "axis2", "limit", "dynamics", "surface"})
 """Elements that only group others: what is in them counts, and not they themselves."""
 _MASKS = frozenset(f"contact/{each}" for each in MASKS)
+_MOVING = frozenset({"joint", "freejoint"})
 _ALWAYS_THE_FIRST = frozenset(each for each in versions_of("sdf") if parse_version(each) < (1, 7))
 """The versions of SDF in which the canonical link cannot be named."""
 
@@ -53,7 +69,9 @@ class _Texts:
         self.context = context
         self.file = WrittenFile(context)
         said = WhatIsSaid(self.file)
-        self.said, self.notes = said.fields, SpellingNotes(said).on
+        self.spelling = SpellingNotes(said)
+        self.is_written = lambda sensor: said.left_of(sensor) is not None
+        self.said, self.notes = said.fields, self.spelling.on
 
     def add_all(self) -> None:
         """Add the texts of all parts."""
@@ -75,17 +93,19 @@ class _Texts:
         model, hidden = self.file.flat, self.file.hidden
         are_bits_usual = self.context.contacts.are_usual  # a file with no others has no masks
         links = [
-            _as_mjcf_has_link(each, has_masks=not are_bits_usual) for each in model.links if each.name not in hidden
+            self._without_seen(_as_mjcf_has_link(each, has_masks=not are_bits_usual))
+            for each in model.links
+            if each.name not in hidden
         ]
         joints = [each.copy(child=None) if each.child in hidden else each for each in model.joints]
         joints = [_as_mjcf_has_it(each) for each in joints if each.name not in self.file.closing]
         named = (each for each in joints if each.type != "fixed" or not self._is_named_by_file(each))
         is_told_apart = isinstance(self.context.holder, Model) and self.context.contacts.is_told_apart
-        model = model.copy(self_collide=False if is_told_apart else None, static=None)
+        model = model.copy(self_collide=False if is_told_apart else None, static=self._static_beside(model))
         for kind, parts in (("model", (model,)), ("link", links), ("joint", named)):
             for each in parts:
                 self.file.part = each
-                left = remainder(without_parts(each, _is_of_mjcf), self.said, lambda _: ())
+                left = remainder(without_parts(each, _is_of_mjcf), self._said_beside, self._notes_beside)
                 if left is not None and is_bare(left):
                     left = None
                 if each is model and self._is_model_of_several_trees:
@@ -107,7 +127,47 @@ class _Texts:
         body = self.context.written_bodies.get(joint.child or "", joint.child)
         made = find_annotation(joint, MADE_NAME)
         is_made = made is not None and made.text == _own_name(joint)
-        return is_made or is_synthesized(joint) or _own_name(joint) == f"{body}_fixed_joint"
+        return is_made or is_synthesized(joint) or _own_name(joint) == fixed_joint_name(body or "")
+
+    def _static_beside(self, model: Model) -> bool | None:
+        """Whether a model is static; None where that is what the bodies of the file say."""
+        bodies = (part for body in self.context.sections.get("worldbody", ()) for part in body.walk())
+        is_still = all(each.name not in _MOVING for each in bodies)
+        is_static = bool(model.static)
+        return None if is_still == is_static or not isinstance(self.context.holder, Model) else is_static
+
+    def _without_seen(self, link: Link) -> Link:
+        """A link whose visuals have no material that the file shows as it is."""
+        self.file.part = link
+
+        def unseen(visual: Visual) -> Visual:
+            geom = self.file.geom(visual)
+            if visual.material is None or geom is None:
+                return visual
+            asset = self.file.asset_element("material", geom.get("material"))
+            bare = without_parts(visual.material, is_ours)
+            return visual.copy(material=None) if is_seen(bare, geom, asset) else visual
+
+        return link.copy(visuals=tuple(map(unseen, link.visuals)))
+
+    def _said_beside(self, node: Node) -> frozenset[str] | Left | None:
+        """What the file says of a node that was read of MJCF; a material that it does not show is taken whole."""
+        if isinstance(node, Material):
+            return None
+        if isinstance(node, Sensor) and node.type is None:  # as `_as_mjcf_has_sensor` marks it
+            return frozenset({EXISTENCE})
+        return self.said(node)
+
+    def _notes_beside(self, node: Node) -> tuple[Opaque, ...]:
+        """The digests of what stands for a material or a sensor, which keeps its name in the file then."""
+        if isinstance(node, Visual) and node.material is not None:
+            self.context.unnamed.discard(("geom", self.file.geom_name(node) or ""))
+            return tuple(self.spelling.look(node))
+        if isinstance(node, Sensor) and self.is_written(node):
+            parts = self.file.parts_of(node)
+            self.context.unnamed.difference_update((each.name, each.get("name") or "") for each in parts)
+            return tuple(self.spelling.parts(node))
+        return ()
 
     def _add(self, kind: str, name: str, node: Node) -> None:
         """Add the text of a node, unless MJCF says all of it, and enter what it holds into the ledger."""
@@ -165,11 +225,10 @@ def _own_name(node: Joint) -> str:
 
 
 def _as_mjcf_has_link(link: Link, *, has_masks: bool) -> Link:
-    """A link without what geoms and bodies say of it, and without sensors and looks, which are read of the file."""
+    """A link without what geoms and bodies say of it, and what sensors are read with."""
     return link.copy(
-        visuals=(),
         collisions=tuple(_as_mjcf_has_collision(each, has_masks=has_masks) for each in link.collisions),
-        sensors=(),
+        sensors=_unread_sensors(link.sensors),
         lights=(),
         self_collide=None,
         inertial=None if weight_of(link).is_nothing else link.inertial,
@@ -190,7 +249,35 @@ def _as_mjcf_has_collision(collision: Collision, *, has_masks: bool) -> Collisio
 def _as_mjcf_has_it(joint: Joint) -> Joint:
     """A joint without sensors, and without the axis of a ball, which is there for its damping alone."""
     axis = joint.axis.copy(xyz=None) if joint.axis and joint.type == "ball" else joint.axis
-    return joint.copy(sensors=(), axis=axis)
+    return joint.copy(sensors=_unread_sensors(joint.sensors), axis=axis)
+
+
+def _unread_sensors(sensors: Iterable[Sensor]) -> tuple[Sensor, ...]:
+    """The sensors of which a file of MJCF leaves something unsaid."""
+    return tuple(left for each in sensors if (left := _unread(each)) is not None)
+
+
+def _unread(sensor: Sensor) -> Sensor | None:
+    """What a file of MJCF leaves unsaid of a sensor, without a type where readings stand for it; None for nothing."""
+    has_readings = any(each.name == "sensor" for each in kept_elements(sensor))
+    opaque = tuple(part for part in sensor.opaque if not (_is_of_mjcf(part) or _is_read(part.element, has_readings)))
+    bare = sensor.copy(type=None, pose=None, opaque=opaque)
+    if (has_readings or sensor.type == "camera") and bare == Sensor.unchecked(name=sensor.name):
+        return None
+    return bare if has_readings else sensor
+
+
+def _is_read(element: Element | None, has_readings: bool) -> bool:
+    """Whether parameters of a sensor are those that sensors of MJCF are read with."""
+    if element is None:
+        return False
+    if has_readings:
+        return element.name in _PARAMETERS
+    return element.name == "camera" and {each.name for each in element.walk()} <= _OF_CAMERAS
+
+
+_PARAMETERS = frozenset({"contact", "lidar", "force_torque"})
+_OF_CAMERAS = frozenset({"camera", "horizontal_fov", "image", "width", "height"})
 
 
 def _is_mocap(link: Link) -> bool:

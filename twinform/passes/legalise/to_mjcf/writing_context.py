@@ -123,11 +123,22 @@ class MjcfContext:
 
     @cached_property
     def static_links(self) -> frozenset[str]:
-        """The scoped names of the links of static models, and of those nested in them."""
+        """The scoped names of the links of static models, and of those nested in them.
+
+        Of MJCF a model is static because nothing in it moves: a joint that was added since counts.
+        """
         static = tuple(scope for scope, each in self.models if each.static)
         if not static:
             return frozenset()
-        return frozenset(name for name in self.tree.links if name.startswith(static))
+        found = (name for name in self.tree.links if name.startswith(static))
+        return frozenset(name for name in found if not (self.is_of_mjcf and self._is_moved(name)))
+
+    def _is_moved(self, link: str) -> bool:
+        """Whether a joint that moves is anywhere between a link and the root of its tree."""
+        above = self.tree.joint_above(link)
+        while above is not None and above.joint.type == "fixed":
+            above = self.tree.joint_above(above.parent) if above.parent in self.tree.links else None
+        return above is not None
 
     @cached_property
     def closing(self) -> tuple[JointBetween, ...]:
@@ -309,6 +320,11 @@ def is_made_name(node: Node) -> bool:
     """Whether a part has no name in the MJCF that it was read of, and was not renamed since."""
     found = find_annotation(node, MADE_NAME)
     return found is not None and found.text == getattr(node, "name", None)
+
+
+def fixed_joint_name(body: str) -> str:
+    """The name that a fixed joint, which has none in MJCF, has when the body that it holds is read."""
+    return f"{body}_fixed_joint"
 
 
 def scope_of(name: str) -> str:

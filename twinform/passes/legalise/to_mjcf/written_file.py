@@ -105,8 +105,12 @@ class WrittenFile:
 
     def asset(self, tag: str, name: str | None) -> list[Tagged]:
         """The asset of a name, such as a mesh or a material, with the elements in it."""
-        found = self._assets.get((tag, name))
+        found = self.asset_element(tag, name)
         return [] if found is None else tagged(found.walk())
+
+    def asset_element(self, tag: str, name: str | None) -> Element | None:
+        """The asset of a name."""
+        return self._assets.get((tag, name))
 
     def file_of(self, geom: Element) -> str | None:
         """The file of the mesh or height field of a geom."""
