@@ -175,5 +175,6 @@ def _world_link(context: MjcfContext) -> str | None:
     for scope, model in context.models:
         if model.static and find_annotation(model, MADE_NAME) is not None and len(model.links) == 1 and not model.pose:
             link = model.links[0]
-            return scope + link.name if link.name == model.name == WORLDBODY and not link.pose else None
+            is_world = link.name == model.name == WORLDBODY and not link.pose
+            return scope + link.name if is_world and scope + link.name in context.static_links else None
     return None

@@ -39,6 +39,7 @@ from twinform.passes.mesh_jobs.mesh_files import NoMeshError
 AnyPart = TypeVar("AnyPart", Visual, Collision)
 _SEEN, _TOUCHED = 2, 3
 """The groups of visuals and of collisions."""
+_COLORS = frozenset({"material", "rgba"})
 _UNTOUCHED: Attributes = (("contype", "0"), ("conaffinity", "0"))
 _WEIGHTLESS: Attributes = (("density", "0"),)
 _UP: Vector3 = (0.0, 0.0, 1.0)
@@ -70,8 +71,9 @@ def geom_elements(context: MjcfContext, body: Body) -> list[Element]:
                 more = [*more, *look_of(context, body, twin, collision)]
             else:
                 more = [*more, *_group(context, collision, _TOUCHED, hides=hides)]
-            found.append(_geom(context, body, collision, shape, more))
-            if twin is not None and id(twin) in done and id(collision) in context.written_geoms:
+            is_seen = twin is not None and id(twin) in done
+            found.append(_geom(context, body, collision, shape, more, seen=twin if is_seen else None))
+            if is_seen and id(collision) in context.written_geoms:
                 context.written_geoms[id(twin)] = context.written_geoms[id(collision)]
     for visual in body.link.visuals:
         if id(visual) not in done and (shape := _shape_of(context, body, visual)) is not None:
@@ -79,7 +81,7 @@ def geom_elements(context: MjcfContext, body: Body) -> list[Element]:
             group = [] if done else _group(context, visual, _SEEN, hides=hides)
             weightless = () if context.is_of_mjcf else _WEIGHTLESS
             more = [*_UNTOUCHED, *group, *weightless, *look_of(context, body, visual)]
-            found.append(_geom(context, body, visual, shape, more))
+            found.append(_geom(context, body, visual, shape, more, seen=visual))
     return found
 
 
@@ -111,14 +113,19 @@ def _kept(part: Visual | Collision, name: str) -> str:
     return next((value for each in kept_elements(part) if each.name == "geom" and (value := each.get(name))), "")
 
 
-def _geom(context: MjcfContext, body: Body, part: AnyPart, shape: Solid, more: Attributes) -> Element:
+def _geom(
+    context: MjcfContext, body: Body, part: AnyPart, shape: Solid, more: Attributes, *, seen: Visual | None
+) -> Element:
     name = context.name_in(body, "geom", source_name(part), part)
     if name is not None:
         context.written_geoms[id(part)] = name
         context.note_made_name("geom", part, name)
     at = context.resolve(part.pose, body).compose(shape.at)
     attributes = [("name", name), *shape.attributes, *placement(at), *more]
-    return with_known_material(context, with_kept(make_element("geom", attributes, (), part.source), part))
+    element = with_kept(make_element("geom", attributes, (), part.source), part)
+    if seen is not None and seen.material is None:  # it was deleted: what is read of MJCF has the colors of its geom
+        return element.copy(attributes=tuple(pair for pair in element.attributes if pair[0] not in _COLORS))
+    return with_known_material(context, element)
 
 
 def _shape_of(context: MjcfContext, body: Body, part: AnyPart) -> Solid | None:

@@ -26,10 +26,16 @@ from twinform.ir import (
 from twinform.ir.frames import MODEL
 from twinform.ir.rewrite import census_of
 from twinform.ir.scopes import SCOPE
-from twinform.passes.carriers.annotations import MADE_NAME, find_annotation, is_synthesized, with_annotation
+from twinform.passes.carriers.annotations import (
+    MADE_NAME,
+    annotation,
+    find_annotation,
+    is_synthesized,
+    with_annotation,
+)
 from twinform.passes.carriers.carriers import NAMESPACE, bits_of_ours, is_carrier, is_ours, without_parts
 from twinform.passes.carriers.mjcf_texts import DOCUMENT, SEVERAL, bare_xml, text_element, text_name, xml_data
-from twinform.passes.carriers.partial_nodes import EXISTENCE, REST, Left, is_bare, remainder
+from twinform.passes.carriers.partial_nodes import EXISTENCE, REST, WRITTEN, Left, is_bare, remainder
 from twinform.passes.legalise.to_mjcf.contact_plan import MASKS
 from twinform.passes.legalise.to_mjcf.friction import without_friction
 from twinform.passes.legalise.to_mjcf.inertials import weight_of
@@ -68,9 +74,8 @@ class _Texts:
     def __init__(self, context: MjcfContext) -> None:
         self.context = context
         self.file = WrittenFile(context)
-        said = WhatIsSaid(self.file)
+        self.what = said = WhatIsSaid(self.file)
         self.spelling = SpellingNotes(said)
-        self.is_written = lambda sensor: said.left_of(sensor) is not None
         self.said, self.notes = said.fields, self.spelling.on
 
     def add_all(self) -> None:
@@ -99,14 +104,13 @@ class _Texts:
         ]
         joints = [each.copy(child=None) if each.child in hidden else each for each in model.joints]
         joints = [_as_mjcf_has_it(each) for each in joints if each.name not in self.file.closing]
-        named = (each for each in joints if each.type != "fixed" or not self._is_named_by_file(each))
         is_told_apart = isinstance(self.context.holder, Model) and self.context.contacts.is_told_apart
         model = model.copy(self_collide=False if is_told_apart else None, static=self._static_beside(model))
-        for kind, parts in (("model", (model,)), ("link", links), ("joint", named)):
+        for kind, parts in (("model", (model,)), ("link", links), ("joint", joints)):
             for each in parts:
                 self.file.part = each
                 left = remainder(without_parts(each, _is_of_mjcf), self._said_beside, self._notes_beside)
-                if left is not None and is_bare(left):
+                if left is not None and is_bare(self._without_what_names(left, each)):
                     left = None
                 if each is model and self._is_model_of_several_trees:
                     left = with_annotation(left or Model.unchecked(name=model.name), SEVERAL)
@@ -129,6 +133,17 @@ class _Texts:
         is_made = made is not None and made.text == _own_name(joint)
         return is_made or is_synthesized(joint) or _own_name(joint) == fixed_joint_name(body or "")
 
+    def _without_what_names(self, left: Node, node: Node) -> Node:
+        """What is left of a node, without what a fixed joint is known by if it is read with the name that it has."""
+        if (
+            isinstance(left, Joint)
+            and isinstance(node, Joint)
+            and node.type == "fixed"
+            and self._is_named_by_file(node)
+        ):
+            return left.copy(parent=None, child=None, pose=None)
+        return left
+
     def _static_beside(self, model: Model) -> bool | None:
         """Whether a model is static; None where that is what the bodies of the file say."""
         bodies = (part for body in self.context.sections.get("worldbody", ()) for part in body.walk())
@@ -139,6 +154,8 @@ class _Texts:
     def _without_seen(self, link: Link) -> Link:
         """A link whose visuals have no material that the file shows as it is."""
         self.file.part = link
+        if self.file.flat.self_collide == link.self_collide or self.context.models[1:]:  # flattening gives it to links
+            link = link.copy(self_collide=None)
 
         def unseen(visual: Visual) -> Visual:
             geom = self.file.geom(visual)
@@ -162,8 +179,9 @@ class _Texts:
         """The digests of what stands for a material or a sensor, which keeps its name in the file then."""
         if isinstance(node, Visual) and node.material is not None:
             self.context.unnamed.discard(("geom", self.file.geom_name(node) or ""))
-            return tuple(self.spelling.look(node))
-        if isinstance(node, Sensor) and self.is_written(node):
+            written = [annotation(WRITTEN, attributes={"as": each}) for each in self.file.other_names(node)]
+            return (*written, *self.spelling.look(node))
+        if isinstance(node, Sensor) and self.what.left_of(node) is not None:
             parts = self.file.parts_of(node)
             self.context.unnamed.difference_update((each.name, each.get("name") or "") for each in parts)
             return tuple(self.spelling.parts(node))
@@ -230,7 +248,6 @@ def _as_mjcf_has_link(link: Link, *, has_masks: bool) -> Link:
         collisions=tuple(_as_mjcf_has_collision(each, has_masks=has_masks) for each in link.collisions),
         sensors=_unread_sensors(link.sensors),
         lights=(),
-        self_collide=None,
         inertial=None if weight_of(link).is_nothing else link.inertial,
         kinematic=None if _is_mocap(link) else link.kinematic,
         gravity=None if link.gravity is False else link.gravity,
@@ -240,7 +257,7 @@ def _as_mjcf_has_link(link: Link, *, has_masks: bool) -> Link:
 def _as_mjcf_has_collision(collision: Collision, *, has_masks: bool) -> Collision:
     """A collision without friction but for a second coefficient, or masks if the bits of its geom have them."""
     surface = collision.surface
-    if surface is None:
+    if surface is None or collision.geometry is None or collision.geometry.shape is None:  # no geom stands for it
         return collision
     surface = without_friction(without_elements(surface, _MASKS) if has_masks else surface)
     return collision.copy(surface=surface.copy(mu2=None) if surface.mu2 == surface.mu else surface)
