@@ -118,6 +118,33 @@ def test_a_robot_with_meshes_of_a_package_is_made_readable(tmp_path: Path) -> No
         with_files(robot, made)
 
 
+_FLAT = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n"
+
+
+@pytest.mark.parametrize(
+    ("points", "seen", "touched"),
+    [(_OCTAHEDRON, True, True), (_FLAT, True, False), ("v 0 0 0\nv 1 0 0\nv 2 0 0\nv 3 0 0\nf 1 2 3\n", False, False)],
+    ids=["solid", "flat", "line"],
+)
+def test_a_mesh_without_a_volume_is_written_as_mujoco_takes_it(
+    tmp_path: Path, points: str, *, seen: bool, touched: bool
+) -> None:
+    (tmp_path / "part.obj").write_text(points)
+    for tag, is_written in (("visual", seen), ("collision", touched)):
+        path = tmp_path / f"{tag}.urdf"
+        shape = f'<{tag}><geometry><mesh filename="part.obj"/></geometry></{tag}>'
+        path.write_text(f'<robot name="r">\n<link name="a">\n{shape}\n</link>\n</robot>')
+        made = twinform.convert(path, to="mjcf")
+        compile_mjcf(made.text, str(tmp_path))
+        assert ("<geom" in made.text) == is_written
+        assert [each.location.line for each in made.diagnostics if each.rule.name == "unreadable-mesh"] == (
+            [] if is_written else [3]
+        )
+        back = twinform.convert(made.text.encode(), to="urdf").text
+        assert "shell" not in back
+        assert back.count("part.obj") == 1
+
+
 @given(strategies.robots(shapes=_SHAPES))
 @settings(deadline=None)
 def test_mujoco_reads_every_robot_that_is_written(robot: Document) -> None:

@@ -19,6 +19,7 @@ _USUAL: Mapping[str, Mapping[str, frozenset[str] | None]] = {
     },
     "geom": {"group": frozenset({"2", "3"}), "density": frozenset({"0"}), "mesh": None, "hfield": None, "size": None},
     "joint": {"springref": None},
+    "mesh": {"inertia": frozenset({"shell"})},
     "site": {"group": frozenset({"4"})},
 }
 

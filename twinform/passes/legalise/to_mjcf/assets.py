@@ -13,6 +13,7 @@ from twinform.ir.geometry import Heightmap, Mesh
 from twinform.ir.node import Vector3
 from twinform.passes.framework.assets import AssetError
 from twinform.passes.legalise.to_mjcf.elements import Value, make_element
+from twinform.passes.legalise.to_mjcf.flat_meshes import Extent, extent_of
 from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements
 from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext
 
@@ -23,27 +24,49 @@ _HEADER, _TRIANGLE = 84, 50
 """The bytes of a binary STL file before its triangles, and of each of them."""
 
 
-def mesh_asset(context: MjcfContext, mesh: Mesh, wanted: str = "") -> str | None:
+def mesh_asset(context: MjcfContext, mesh: Mesh, wanted: str = "", *, touches: bool = False) -> str | None:
     """The name of the asset of a mesh; None, with a finding, where MuJoCo cannot read the file.
 
-    The name is `wanted`, which it had in MJCF, or that of the file.
+    The name is `wanted`, which it had in MJCF, or that of the file. `touches` is whether it is of a collision, of which
+    MuJoCo wants a convex hull.
     """
     uri = (mesh.uri or "").strip()
     scale = None if mesh.scale in (None, (1.0, 1.0, 1.0)) else mesh.scale
+    extent = _extent(context, uri)
+    if extent is Extent.PLANE and touches:
+        message = f"mesh {uri!r} is flat, and MuJoCo takes none for a collision"
+        help_ = "make it a thin box, or show it in a visual alone"
+        context.sink.report(rules.UNREADABLE_MESH, message, mesh.location, found=uri, help=help_)
+        return None
     key = ("mesh", uri, scale, wanted)
     if key not in context.files:
         context.files[key] = _new_mesh(context, mesh, uri, scale, wanted)
     return context.files[key]
 
 
+def _extent(context: MjcfContext, uri: str) -> Extent:
+    """What the points of a file span; each file is looked at once."""
+    key = ("extent", uri)
+    if key not in context.files:
+        path = _find(context, uri) if PurePosixPath(uri).suffix.lower().removeprefix(".") in _MESHES else None
+        context.files[key] = (Extent.SOLID if path is None else extent_of(context.assets.readable, path)).value
+    return Extent(context.files[key])
+
+
 def _new_mesh(context: MjcfContext, mesh: Mesh, uri: str, scale: Vector3 | None, wanted: str) -> str | None:
-    why = _why_unread(context, mesh, uri)
+    why, extent = _why_unread(context, mesh, uri), _extent(context, uri)
+    if why is None and extent is Extent.LINE:
+        message = f"mesh {uri!r} has no surface, or less than four points, and MuJoCo refuses it"
+        context.sink.report(rules.UNREADABLE_MESH, message, mesh.location, found=uri, help="leave it out")
+        return None
     if why is not None:
         context.sink.report(rules.UNREADABLE_MESH, f"mesh {uri!r} {why}", mesh.location, found=uri, help=_CONVERT)
         return None
     file = file_path(context, uri, mesh.location)
     name = context.name("mesh", wanted or PurePosixPath(file).stem or "mesh", mesh.location)
-    attributes: list[tuple[str, Value]] = [("name", name), ("file", file), ("scale", scale)]
+    # MuJoCo refuses a mesh without a volume unless its inertia is that of its surface.
+    shell = "shell" if extent is Extent.PLANE else None
+    attributes: list[tuple[str, Value]] = [("name", name), ("file", file), ("scale", scale), ("inertia", shell)]
     context.add("asset", make_element("mesh", attributes, (), mesh.source))
     return name
 

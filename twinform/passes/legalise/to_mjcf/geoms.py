@@ -156,7 +156,7 @@ def _solid(context: MjcfContext, body: Body, shape: Shape, part: Visual | Collis
     """The shape in MJCF; why it has none; or None where that was reported."""
     match shape:
         case Mesh():
-            name = mesh_asset(context, shape, _kept(part, "mesh"))
+            name = mesh_asset(context, shape, _kept(part, "mesh"), touches=isinstance(part, Collision))
             return None if name is None else Solid([("type", "mesh"), ("mesh", name)])
         case Plane():
             if body.moves:
