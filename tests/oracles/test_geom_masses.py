@@ -75,6 +75,23 @@ def test_meshes_whose_vertices_stand_in_the_file(tmp_path: Path, inertia: str, f
     _are_the_same(path, 1e-5)
 
 
+@pytest.mark.parametrize("inertia", ["legacy", "exact", "convex", "shell"])
+def test_a_file_of_points_without_triangles_is_their_hull(tmp_path: Path, inertia: str) -> None:
+    corners = "".join(f"v {x} {y} {z}\n" for x in (-1, 1) for y in (-2, 2) for z in (-3, 3))
+    (tmp_path / "points.obj").write_text(corners + "v 0.1 0.2 0.3\n")
+    path = tmp_path / "model.xml"
+    path.write_text(
+        f'''<mujoco model="m"><asset><mesh name="t" file="points.obj" inertia="{inertia}" scale="1 -2 0.5"/></asset>
+        <worldbody><body name="base"><geom size="1"/>
+        <body name="a"><joint/><geom type="mesh" mesh="t" pos="1 2 3" euler="10 20 30"/></body></body></worldbody>
+        </mujoco>'''
+    )
+    _are_the_same(path, 1e-5)
+    found = [each.message for each in twinform.check(path).diagnostics if each.rule.name == "unreadable-mesh"]
+    hull = "its mass is that of the convex hull of its points, as in MuJoCo"
+    assert found == [f"the mesh 'points.obj' cannot be read: it has no triangles, so that {hull}"]
+
+
 def test_a_flat_mesh_has_no_mass(tmp_path: Path) -> None:
     path = tmp_path / "model.xml"
     path.write_text(

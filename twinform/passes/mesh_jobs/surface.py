@@ -48,7 +48,10 @@ class TriangleSurface(NamedTuple):
 
 def parts_of(job: MeshJob, *, appearance: bool = False, finite: bool = True) -> list[tuple[str, Any]]:
     """The meshes that the shape of a job uses, by name, in meters and in their places."""
-    scene = _read_scene(job.content, job.kind, job.companions, appearance=appearance, finite=finite)
+    scene: Any = scene_of(job.content, job.kind, companions=job.companions, appearance=appearance)
+    if job.options.get("hull_of_points"):
+        scene = _hull_of_points(scene)
+    _require_triangles(scene, finite=finite)
     parts = _select_submesh(
         _place_parts(scene), cast("str | None", job.options["submesh"]), center=bool(job.options["center"])
     )
@@ -59,15 +62,29 @@ def parts_of(job: MeshJob, *, appearance: bool = False, finite: bool = True) -> 
     return turn_z_up(parts) if job.kind in {"glb", "gltf"} and job.options["gltf_up"] == "y" else parts
 
 
-def _read_scene(
-    content: bytes, kind: str, companions: Mapping[str, bytes], *, appearance: bool = False, finite: bool = True
-) -> Any:
-    """Read the scene of a file, in its own unit; coordinates may be infinite or NaN where not `finite`.
+def _hull_of_points(scene: Any) -> Any:
+    """A scene of the convex hull of the points of a file, if these are all that it has.
+
+    Raises:
+        UnusableMeshError: the points are in a plane, or are no finite numbers.
+    """
+    parts = [*scene.geometry.values()]
+    if len(parts) != 1 or not isinstance(parts[0], trimesh.PointCloud):
+        return scene
+    try:
+        return trimesh.Scene(parts[0].convex_hull)
+    except ImportError:
+        raise
+    except Exception as error:  # scipy raises an error of its own
+        raise UnusableMeshError("it has no triangles, and its points have no convex hull") from error
+
+
+def _require_triangles(scene: Any, *, finite: bool) -> None:
+    """Refuse a scene without triangles; coordinates may be infinite or NaN where not `finite`.
 
     Raises:
         UnusableMeshError: it has no triangles, too many, or coordinates that are no numbers.
     """
-    scene = scene_of(content, kind, companions=companions, appearance=appearance)
     meshes = [each for each in scene.geometry.values() if len(getattr(each, "faces", ()))]
     if not meshes:
         raise UnusableMeshError("it has no triangles")
@@ -82,7 +99,6 @@ def _read_scene(
     for each in meshes:
         if finite and not np.isfinite(each.vertices[each.faces.ravel()]).all():
             raise UnusableMeshError("it has coordinates that are no finite numbers")
-    return scene
 
 
 def _used_meshes(scene: Any) -> list[tuple[str, Any]]:

@@ -20,7 +20,7 @@ from twinform.ir import Box, Capsule, Cylinder, Ellipsoid, Mesh, Sphere
 from twinform.ir.geometry import Shape
 from twinform.ir.solids import NOTHING, Solid, placed, principal_axes, solid
 from twinform.ir.transform import Transform
-from twinform.passes.shared.mesh_solids import MeshError, Meshes
+from twinform.passes.shared.mesh_solids import MeshError, Meshes, MeshTriangles
 
 if TYPE_CHECKING:
     import numpy as np
@@ -144,12 +144,11 @@ class GeomSolids:
         way = asset.peek("inertia") or _LEGACY
         if not isinstance(mesh, Mesh):
             return None if asset.has("file") else self._of_vertices(asset, way)
-        try:
-            triangles = self._meshes.triangles(mesh)
-        except MeshError as error:
-            message = f"{error.message}, so that it counts for no mass"
-            self._sink.report(error.rule, message, asset.location, found=mesh.uri, help=error.help)
+        triangles, is_hull = self._triangles(asset, mesh)
+        if triangles is None:
             return None
+        if is_hull and way == _EXACT:
+            way = _CONVEX  # a negative scale has turned its faces
         import numpy as np  # noqa: PLC0415 - only meshes need it
 
         points = np.frombuffer(triangles.points, dtype=np.float64).reshape(-1, 3)
@@ -169,6 +168,26 @@ class GeomSolids:
         self._sink.report(rules.UNREADABLE_MESH, message, asset.location, found=asset.name, help=hint)
         self._unmeasured.add(asset.name)
         return None
+
+    def _triangles(self, asset: Piece, mesh: Mesh) -> tuple[MeshTriangles | None, bool]:
+        """Return the triangles of a file, or of the convex hull of its points, and whether it is that hull.
+
+        MuJoCo takes the hull if there are no triangles.
+        """
+        try:
+            return self._meshes.triangles(mesh), False
+        except MeshError as error:
+            found = self._hull(mesh)
+            so = "its mass is that of the convex hull of its points, as in MuJoCo" if found else "it counts for no mass"
+            message = f"{error.message}, so that {so}"
+            self._sink.report(error.rule, message, asset.location, found=mesh.uri, help=error.help)
+            return found, True
+
+    def _hull(self, mesh: Mesh) -> MeshTriangles | None:
+        try:
+            return self._meshes.triangles(mesh, hull_of_points=True)
+        except MeshError:
+            return None
 
 
 def _of_density(measured: Solid, density: float) -> Solid:
