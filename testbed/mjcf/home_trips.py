@@ -148,7 +148,7 @@ def _key(element: XmlElement) -> tuple[str, ...]:
     name = element.get("name") or ""
     if element.tag == "geom":
         touches = (element.get("contype"), element.get("conaffinity")) != ("0", "0")
-        return "geom", name, str(touches)
+        return "geom", name, str(touches), element.get("type") or "sphere"
     parent = element.getparent()
     if parent is not None and parent.tag in _OF_PARTS and not name:
         return str(element.tag), *sorted(f"{each.attribute}={each.name}" for each in own_references(element))
