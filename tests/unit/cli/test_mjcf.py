@@ -169,7 +169,7 @@ _FRAGMENTS = {
 
 
 def test_fragments_are_judged_where_they_are_included(run: Run, tmp_path: Path) -> None:
-    """As in many packages: a robot, a scene around it, and fragments in a folder, one of them by the root of a model."""
+    """As in many packages: a robot, a scene around it, and fragments in a folder; a fragment may be a `<mujoco>`."""
     (tmp_path / "common").mkdir()
     for name, text in {"arm.xml": _ARM, "scene.xml": _SCENE, **_FRAGMENTS}.items():
         (tmp_path / name).write_text(text)

@@ -16,7 +16,7 @@ from lxml import etree
 from twinform.compiler.input.mjcf.attached_keys import AttachedKeys, UncountableError
 from twinform.compiler.input.mjcf.compiler_settings import CompilerSettings
 from twinform.compiler.input.mjcf.copy_budget import CopyBudget, weight_of_tree
-from twinform.compiler.input.mjcf.element_findings import ElementFindings, give_number
+from twinform.compiler.input.mjcf.element_findings import TURN, ElementFindings, give_number
 from twinform.compiler.input.mjcf.expand_frames import add_to_names, expand_frames
 from twinform.compiler.input.mjcf.merge_settings import merge_settings
 from twinform.compiler.input.mjcf.model_files import CanonicalModel, ModelFiles
@@ -57,6 +57,7 @@ class Attaching:
         assets: dict[str, XmlElement] = {}
         for asset in root.iterfind("asset/model"):
             assets.setdefault(self.files.name_of(asset, self._path(asset)), asset)
+        _number_turns(root)
         whole = deepcopy(root) if any("model" not in each.attrib for each in attachments) else None
         for attachment in attachments:
             child = self._child(attachment, assets, whole, findings)
@@ -248,6 +249,19 @@ class Attaching:
         return content
 
 
+def _number_turns(root: XmlElement) -> None:
+    """Number the replicates and attachments of a tree that are not in a replicate, in their order."""
+    left = [*root.iterchildren("worldbody")][::-1]
+    turn = 0
+    while left:
+        element = left.pop()
+        if element.tag in {"replicate", "attach"}:
+            turn += 1
+            element.set(TURN, str(turn))
+        else:
+            left += [*element.iterchildren("body", "frame", "replicate", "attach")][::-1]
+
+
 def _report_left_out_keys(element: XmlElement, findings: ElementFindings) -> None:
     """Report that keyframes are missing."""
     message = "the keyframes of the attached model are left out"
@@ -290,4 +304,8 @@ def _take_in(attachment: XmlElement, child: XmlElement, content: list[XmlElement
             if own is None:
                 own = etree.SubElement(root, tag)
                 give_number(own, attachment)
+            for each in section.iterchildren("*"):
+                each.attrib.pop(TURN, None)
+                if TURN in attachment.attrib:
+                    each.set(TURN, attachment.get(TURN, ""))
             own.extend(list(section.iterchildren("*")))

@@ -8,7 +8,7 @@ from collections.abc import Container, Iterable, Sequence
 from copy import deepcopy
 
 from twinform.compiler.input.mjcf.copy_budget import CopyBudget, weight_of_tree
-from twinform.compiler.input.mjcf.element_findings import ElementFindings
+from twinform.compiler.input.mjcf.element_findings import TURN, ElementFindings
 from twinform.compiler.input.mjcf.references import KINDS, own_references, references_in, rename
 from twinform.schemas import XmlElement
 
@@ -64,6 +64,8 @@ class Followers:
                 if copy.get("name"):
                     copy.set("name", f"{copy.get('name')}{suffix}")
                 rename(copy, known, lambda name, suffix=suffix: f"{name}{suffix}")
+                if TURN in replicate.attrib:
+                    copy.set(TURN, replicate.get(TURN, ""))
                 section = each.getparent()
                 if section is not None:
                     section.append(copy)
@@ -72,6 +74,14 @@ class Followers:
             section = each.getparent()
             if section is not None:
                 section.remove(each)
+
+    def sort(self) -> None:
+        """Let what is attached and what is copied stand in the order of attachments and replicates, as in MuJoCo."""
+        for section in self._sections:
+            if any(TURN in each.attrib for each in section):
+                section[:] = sorted(section, key=lambda each: int(each.get(TURN, "0")))
+            for each in section:
+                each.attrib.pop(TURN, None)
 
     def _find(self, known: Names, before: Container[str]) -> list[XmlElement]:
         """Return all followers in the order of their sections, and add the names of those that have followers too."""

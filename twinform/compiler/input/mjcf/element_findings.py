@@ -18,6 +18,9 @@ NUMBER = "twinform-number"
 SLOT = "twinform-slot"
 """The attribute that has the number of a part in the keyframes of an attached model."""
 
+TURN = "twinform-turn"
+"""The attribute that has the place of a replicate or an attached model among them, which orders what comes of it."""
+
 
 @dataclass(slots=True)
 class ElementFindings:
@@ -65,9 +68,9 @@ def set_line(element: XmlElement, other: XmlElement) -> None:
 
 
 def take_numbers_out(root: XmlElement) -> None:
-    """Remove the numbers from a tree, and those of the keyframes of attached models."""
+    """Remove the numbers from a tree, and those of attached models."""
     for element in _elements(root):
-        for name in (NUMBER, SLOT):
+        for name in (NUMBER, SLOT, TURN):
             element.attrib.pop(name, None)
 
 

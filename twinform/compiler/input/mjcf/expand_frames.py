@@ -60,6 +60,8 @@ def expand_frames(root: XmlElement, settings: CompilerSettings, findings: Elemen
                 _expand_frames_in(replicate, findings)
                 _expand_replicate(replicate, followers, settings, findings)
         _expand_frames_in(worldbody, findings)
+    if followers is not None:
+        followers.sort()
 
 
 def _expand_frames_in(element: XmlElement, findings: ElementFindings) -> None:
