@@ -209,7 +209,7 @@ def _count(node: Node) -> int:
                 found |= census_of(each)
     for name, bit in rare:
         value = getattr(node, name)
-        if value is not None and value != () and not (value.__class__ is Pose and _is_plain(value)):
+        if (value or not (value is None or value == ())) and not (value.__class__ is Pose and _is_plain(value)):
             found |= bit
     if node.opaque or node.__class__ is GazeboExtension:
         found |= _count_untyped(node)

@@ -170,7 +170,8 @@ class _Merged:
         model, left = join_joints(model, self.joints)
         for each in left:
             self._stale(f"joint {each.name!r} is no joint of type {each.type} any more", each)
-        self.joints = [each for each in self.joints if each not in left]
+        gone = set(map(id, left))
+        self.joints = [each for each in self.joints if id(each) not in gone]
         model = with_rotors(self._attached(self._merged(self._with_loops(model))))
         model = without_assets(model, self.spellings.agreed)
         for stale in self.merging.stale:
@@ -184,28 +185,30 @@ class _Merged:
 
     def _with_loops(self, model: Model) -> Model:
         """The model with the joints that closed loops in place of the constraints that do, if these still do."""
-        for partial in self.joints:
-            if find_annotation(partial, LOOP) is None:
-                continue
+        loops = [each for each in self.joints if find_annotation(each, LOOP) is not None]
+        if not loops:
+            return model
+        joints, beside = {each.name: (each.parent, each.child) for each in model.joints}, self._held_together()
+        opened: set[str] = set()
+        closed: list[Joint] = []
+        for partial in loops:
             names = written_names(partial)
-            ends = [(each.parent, each.child) for each in model.joints if each.name in names]
-            ends += self._held_together(names) if not ends else ()
+            ends = [joints[each] for each in names if each in joints]
+            ends += [beside[each] for each in names if each in beside] if not ends else ()
             if len(ends) != len(names) or set(ends) != {(partial.parent, partial.child)}:
                 self._stale(f"the loop that joint {partial.name!r} closed is another one now", partial)
             else:
                 self.spellings.agreed.update((tag, each) for tag in ("connect", "weld") for each in names)
-                whole = without_annotation(partial, LOOP, REST, WRITTEN)
-                kept = tuple(each for each in model.joints if each.name not in names)
-                model = model.copy(joints=(*kept, whole))
+                opened.update(names)
+                closed.append(without_annotation(partial, LOOP, REST, WRITTEN))
         self.joints = [each for each in self.joints if find_annotation(each, LOOP) is None]
-        return model
+        return model.copy(joints=(*(each for each in model.joints if each.name not in opened), *closed))
 
-    def _held_together(self, names: Collection[str]) -> list[tuple[str | None, str | None]]:
-        """The links that equalities hold together which are no joints, since their bodies are in several trees."""
+    def _held_together(self) -> dict[str, tuple[str | None, str | None]]:
+        """The links that each equality holds together, by its name: bodies of several trees have no joint for it."""
         links = {written: link.name for link in self.links for written in written_names(link)}
-        found = [each for each in self.root.iterfind("equality/*") if each.get("name") in names]
-        bodies = [(each.get("body1"), each.get("body2")) for each in found]
-        return [(links.get(one or "", one), links.get(other or "", other)) for one, other in bodies]
+        found = ((each.get("name"), each.get("body1"), each.get("body2")) for each in self.root.iterfind("equality/*"))
+        return {name: (links.get(one or "", one), links.get(other or "", other)) for name, one, other in found if name}
 
     def _attached(self, model: Model) -> Model:
         """The model whose frames are attached to what they were, where that still moves with the same link."""
@@ -239,9 +242,8 @@ class _Merged:
             else each
             for each in model.links
         )
-        self.links = [
-            each for each in self.links if each.name not in whole or not any(each.name == one.name for one in between)
-        ]
+        known = {each.name for each in between}
+        self.links = [each for each in self.links if each.name not in whole or each.name not in known]
         links = self.merging.merge_all(between, tuple(without_annotation(each, WRITTEN) for each in self.links))
         ends = {WORLD, *(each.name for each in links), *(each.name for each in (*model.frames, *self.frames))}
         joints = self.merging.merge_all(joints, tuple(self._typed(joints, ends)))

@@ -56,9 +56,10 @@ class Piece:
 
     def take(self, attribute: str) -> str | None:
         """Return the value of an attribute, which the document expresses from now on."""
-        if attribute in self._attributes:
+        value = self._attributes.get(attribute)
+        if value is not None:
             self.taken.add(attribute)
-        return self._attributes.get(attribute)
+        return value
 
     def leave(self, *attributes: str) -> None:
         """Give taken attributes back, because the document expresses them only in part."""
