@@ -37,6 +37,8 @@ def _add_kept(context: MjcfContext, sensor: Sensor, body: Body) -> bool:
     """Add the readings that a sensor keeps of the file of MJCF that it was read from, whose site is a frame now."""
     kept = [reading for each in kept_elements(sensor) if each.name == "sensor" for reading in each.children]
     context.kept_readings += [(body.scope, each) for each in kept]
+    if kept:
+        context.kept_sensors.add(id(sensor.source))
     return bool(kept)
 
 

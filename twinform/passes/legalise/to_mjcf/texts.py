@@ -35,7 +35,7 @@ from twinform.passes.carriers.annotations import (
 )
 from twinform.passes.carriers.carriers import NAMESPACE, bits_of_ours, is_carrier, is_ours, without_parts
 from twinform.passes.carriers.mjcf_texts import DOCUMENT, SEVERAL, bare_xml, text_element, text_name, xml_data
-from twinform.passes.carriers.partial_nodes import EXISTENCE, REST, WRITTEN, Left, is_bare, remainder
+from twinform.passes.carriers.partial_nodes import REST, WRITTEN, Left, is_bare, remainder
 from twinform.passes.legalise.to_mjcf.contact_plan import MASKS
 from twinform.passes.legalise.to_mjcf.friction import without_friction
 from twinform.passes.legalise.to_mjcf.inertials import weight_of
@@ -171,8 +171,6 @@ class _Texts:
         """What the file says of a node that was read of MJCF; a material that it does not show is taken whole."""
         if isinstance(node, Material):
             return None
-        if isinstance(node, Sensor) and node.type is None:  # as `_as_mjcf_has_sensor` marks it
-            return frozenset({EXISTENCE})
         return self.said(node)
 
     def _notes_beside(self, node: Node) -> tuple[Opaque, ...]:

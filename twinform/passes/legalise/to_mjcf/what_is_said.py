@@ -16,6 +16,8 @@ Fields = frozenset[str] | None
 _DIRECTED = frozenset({"revolute", "continuous", "prismatic", "universal", "revolute2", "screw"})
 """The types of joints whose axes MJCF says."""
 _THERE = frozenset({EXISTENCE})
+_PLACED = _THERE | {"pose"}
+"""What the readings that a sensor keeps say of it, by the site that they are at."""
 _OF_WORLD = _THERE | {"models", "joints", "frames"}
 """What is flattened, or has texts of its own."""
 
@@ -34,6 +36,7 @@ class WhatIsSaid:
             Dynamics: self._of_axis,
             Mimic: self._of_axis,
             Joint: self._of_joint,
+            Sensor: lambda sensor: _PLACED if id(sensor.source) in file.context.kept_sensors else None,
             Link: lambda link: said_by_mjcf(link) if link.name in file.context.written_bodies else None,
             Frame: lambda frame: said_by_mjcf(frame) if file.has_site(frame) else None,
             Visual: self._of_shape,

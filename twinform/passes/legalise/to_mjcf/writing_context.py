@@ -83,6 +83,7 @@ class MjcfContext:
         unnamed: kinds and names that parts have here alone, since they have none in MJCF.
         left: nodes whose untyped elements MJCF says in part, by identity, each with what MJCF leaves of it.
         kept_readings: the readings that sensors keep, each with the prefix of the names in it.
+        kept_sensors: the sensors with such readings, by the identities of their sources.
         files: `asset` elements by what they are made of, so that equal ones are shared.
         sections: what stands outside of `worldbody`, by the name of the section, in the order in which it was added.
     """
@@ -104,6 +105,7 @@ class MjcfContext:
     unnamed: set[tuple[str, str]] = field(default_factory=set[tuple[str, str]])
     left: dict[int, tuple[Node, Node]] = field(default_factory=dict[int, tuple[Node, Node]])
     kept_readings: list[tuple[str, Element]] = field(default_factory=list[tuple[str, Element]])
+    kept_sensors: set[int] = field(default_factory=set[int])
     files: dict[object, str | None] = field(default_factory=dict[object, str | None])
     sections: dict[str, list[Element]] = field(default_factory=lambda: defaultdict(list))
 
