@@ -16,7 +16,7 @@ from twinform.ir import Document, Format, Model
 from twinform.passes import FailedPassError, Pass, registered_passes
 from twinform.passes.framework.passes_page import description
 from twinform.passes.legalise import legalisation_kinds
-from twinform.passes.legalise.to_urdf.flatten_for_urdf import FlattenForUrdf
+from twinform.passes.legalise.nested_models import FlattenForUrdf
 from twinform.passes.structure.flatten_models import FlattenModels
 
 

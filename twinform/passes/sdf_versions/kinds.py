@@ -9,14 +9,11 @@ if TYPE_CHECKING:
     from twinform.passes.sdf_versions.clear_names import ClearNames
     from twinform.passes.sdf_versions.connect_links import ConnectLinks
     from twinform.passes.sdf_versions.fit_joint_types import FitJointTypes
-    from twinform.passes.sdf_versions.flatten_nested import FlattenNested
     from twinform.passes.sdf_versions.leave_out import LeaveOut
-    from twinform.passes.sdf_versions.move_time_steps import MoveTimeSteps
-    from twinform.passes.sdf_versions.move_world_fields import MoveWorldFields
-    from twinform.passes.sdf_versions.name_axis_frames import NameAxisFrames
-    from twinform.passes.sdf_versions.name_pose_frames import NamePoseFrames
+    from twinform.passes.sdf_versions.move_elements import MoveTimeSteps, MoveWorldFields
+    from twinform.passes.sdf_versions.name_frames import NameAxisFrames, NamePoseFrames
     from twinform.passes.sdf_versions.name_the_nameless import NameTheNameless
-    from twinform.passes.sdf_versions.nest_models import NestModels
+    from twinform.passes.sdf_versions.nest_models import FlattenNested, NestModels
     from twinform.passes.sdf_versions.place_absolutely import PlaceAbsolutely
     from twinform.passes.sdf_versions.place_inertials import PlaceInertials
     from twinform.passes.sdf_versions.rename_states import RenameStates
@@ -36,14 +33,11 @@ else:
             "twinform.passes.sdf_versions.clear_names": "ClearNames",
             "twinform.passes.sdf_versions.connect_links": "ConnectLinks",
             "twinform.passes.sdf_versions.fit_joint_types": "FitJointTypes",
-            "twinform.passes.sdf_versions.flatten_nested": "FlattenNested",
+            "twinform.passes.sdf_versions.nest_models": "FlattenNested NestModels",
             "twinform.passes.sdf_versions.leave_out": "LeaveOut",
-            "twinform.passes.sdf_versions.move_time_steps": "MoveTimeSteps",
-            "twinform.passes.sdf_versions.move_world_fields": "MoveWorldFields",
-            "twinform.passes.sdf_versions.name_axis_frames": "NameAxisFrames",
-            "twinform.passes.sdf_versions.name_pose_frames": "NamePoseFrames",
+            "twinform.passes.sdf_versions.move_elements": "MoveTimeSteps MoveWorldFields",
+            "twinform.passes.sdf_versions.name_frames": "NameAxisFrames NamePoseFrames",
             "twinform.passes.sdf_versions.name_the_nameless": "NameTheNameless",
-            "twinform.passes.sdf_versions.nest_models": "NestModels",
             "twinform.passes.sdf_versions.place_absolutely": "PlaceAbsolutely",
             "twinform.passes.sdf_versions.place_inertials": "PlaceInertials",
             "twinform.passes.sdf_versions.rename_states": "RenameStates",

@@ -38,10 +38,10 @@ from twinform.passes.carriers.carriers import NAMESPACE
 from twinform.passes.carriers.carriers import PREFIX as TF
 from twinform.passes.carriers.mjcf_texts import ATTACHED, DOCUMENT, LOOP, PREFIXES, SEVERAL
 from twinform.passes.carriers.partial_nodes import REST, WRITTEN, Merging, is_rest, written_name, written_names
+from twinform.passes.legalise.nested_models import NameScopes, RestoreNested
 from twinform.passes.legalise.to_mjcf.rotors import with_rotors
 from twinform.passes.legalise.to_mjcf.writing_context import fixed_joint_name
 from twinform.passes.legalise.to_sdf.restore_frames import RestoreFrames
-from twinform.passes.legalise.to_sdf.restore_nested import NameScopes, RestoreNested
 from twinform.passes.sdf_versions import change_version, lower_meaning
 from twinform.passes.sdf_versions.set_version import SetVersion
 from twinform.passes.shared.poses import POSE

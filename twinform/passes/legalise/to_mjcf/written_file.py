@@ -13,10 +13,9 @@ from twinform.ir.frames import FrameGraph
 from twinform.passes.carriers.annotations import came_from
 from twinform.passes.carriers.joint_chains import CHAINS
 from twinform.passes.carriers.mjcf_texts import Tagged, tagged
+from twinform.passes.legalise.joint_notation import ExpressAxes, ResolveJointEnds
+from twinform.passes.legalise.nested_models import flat_model
 from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext
-from twinform.passes.legalise.to_urdf.express_axes import ExpressAxes
-from twinform.passes.legalise.to_urdf.flatten_for_urdf import flat_model
-from twinform.passes.legalise.to_urdf.resolve_joint_ends import ResolveJointEnds
 from twinform.passes.legalise.to_urdf.to_urdf_pass import UrdfKeeper
 
 Shape = Visual | Collision

@@ -28,7 +28,7 @@ from twinform.passes.carriers.joint_chains import (
 )
 from twinform.passes.carriers.token_mass import is_chain_token, is_token
 from twinform.passes.framework.pass_base import ModelPass
-from twinform.passes.legalise.to_sdf.restore_joints import restore_reference
+from twinform.passes.legalise.joint_notation import restore_reference
 
 _KINDS: dict[str, JointType] = {str(kind): kind for kind in CHAINS}
 _TURNS = frozenset({"revolute", "continuous"})

@@ -8,7 +8,7 @@ from twinform.diagnostics import DiagnosticSink, Severity, rules
 from twinform.ir import Element, Format, Model
 from twinform.passes.carriers.annotations import came_from
 from twinform.passes.framework.pass_base import ModelPass
-from twinform.passes.legalise.to_sdf.frame_links import is_massless
+from twinform.passes.legalise.frame_links import is_massless
 from twinform.passes.legalise.to_sdf.gazebo_sorting import place_of
 from twinform.passes.shared.gazebo_tags import FALSE, lumped_links
 from twinform.passes.structure.gazebo_blocks import (

@@ -4,29 +4,29 @@ from twinform.ir import Format
 from twinform.passes.carriers.misplaced import DropMisplaced
 from twinform.passes.framework.pass_base import Pass
 from twinform.passes.legalise.automatic_inertias import LeaveInertias
+from twinform.passes.legalise.carried_urdf import CarryUrdf
 from twinform.passes.legalise.changed_names import RestoreNames, UniqueNames
 from twinform.passes.legalise.drake_joints import ReadDrakeJoints
 from twinform.passes.legalise.drop_stale import DropStale
+from twinform.passes.legalise.frame_links import FrameLinks
 from twinform.passes.legalise.free_links import FreeStaticModels
 from twinform.passes.legalise.gearboxes import FoldGearboxes
+from twinform.passes.legalise.joint_notation import RestoreJoints
 from twinform.passes.legalise.lumped_names import FollowLumpedNames
+from twinform.passes.legalise.nested_models import NameScopes, RestoreNested
 from twinform.passes.legalise.round_tiny_numbers import RoundTinyNumbers
 from twinform.passes.legalise.scoped_elements import HideScopedElements
 from twinform.passes.legalise.shape_names import NameShapes, RestoreShapeNames
 from twinform.passes.legalise.shared_inertias import ShareInertias
 from twinform.passes.legalise.shared_materials import SharedMaterials
-from twinform.passes.legalise.to_sdf.carry_urdf import CarryUrdf
 from twinform.passes.legalise.to_sdf.close_loops import CloseLoops
 from twinform.passes.legalise.to_sdf.declare_quaternions import DeclareQuaternions
 from twinform.passes.legalise.to_sdf.fold_gazebo import FoldGazebo
 from twinform.passes.legalise.to_sdf.fold_joints import FoldJoints
-from twinform.passes.legalise.to_sdf.frame_links import FrameLinks
 from twinform.passes.legalise.to_sdf.joint_types import UrdfJoints
 from twinform.passes.legalise.to_sdf.mesh_uris import MeshUris
 from twinform.passes.legalise.to_sdf.note_lumping import NoteLumping
 from twinform.passes.legalise.to_sdf.restore_frames import RestoreFrames
-from twinform.passes.legalise.to_sdf.restore_joints import RestoreJoints
-from twinform.passes.legalise.to_sdf.restore_nested import NameScopes, RestoreNested
 from twinform.passes.legalise.to_sdf.retarget import RetargetSdf
 from twinform.passes.legalise.to_sdf.unpack_sdf import UnpackSdf
 from twinform.passes.legalise.to_sdf.world_link import WorldLink

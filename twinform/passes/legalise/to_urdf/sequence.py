@@ -4,13 +4,17 @@ from twinform.ir import Format
 from twinform.passes.carriers.misplaced import DropMisplaced
 from twinform.passes.framework.pass_base import Pass
 from twinform.passes.legalise.automatic_inertias import ComputeInertias
+from twinform.passes.legalise.carried_urdf import UnpackUrdf
 from twinform.passes.legalise.changed_names import NameJointsApart, RestoreNames
 from twinform.passes.legalise.drake_joints import WriteDrakeJoints
 from twinform.passes.legalise.drop_stale import DropStale
 from twinform.passes.legalise.fit_urdf_version import FitUrdfVersion
+from twinform.passes.legalise.frame_links import TurnFramesIntoLinks
 from twinform.passes.legalise.free_links import PlaceFreeLinks
 from twinform.passes.legalise.gearboxes import RelateGearboxes
+from twinform.passes.legalise.joint_notation import ExpressAxes, ResolveJointEnds
 from twinform.passes.legalise.lumped_names import RestoreLumpedNames
+from twinform.passes.legalise.nested_models import FlattenForUrdf
 from twinform.passes.legalise.round_tiny_numbers import RoundTinyNumbers
 from twinform.passes.legalise.scoped_elements import ShowScopedElements
 from twinform.passes.legalise.shape_names import NameShapesForGazebo
@@ -18,23 +22,18 @@ from twinform.passes.legalise.shared_inertias import RestoreInertias
 from twinform.passes.legalise.shared_materials import RestoreMaterials
 from twinform.passes.legalise.to_urdf.build_tree import BuildTree
 from twinform.passes.legalise.to_urdf.carry_the_rest import CarryTheRest
-from twinform.passes.legalise.to_urdf.express_axes import ExpressAxes
 from twinform.passes.legalise.to_urdf.extend_gazebo import ExtendGazebo
-from twinform.passes.legalise.to_urdf.flatten_for_urdf import FlattenForUrdf
 from twinform.passes.legalise.to_urdf.fold_planar_joints import FoldPlanarJoints
 from twinform.passes.legalise.to_urdf.map_geometry import AddCapsuleEnds, MapGeometry
 from twinform.passes.legalise.to_urdf.map_joints import MapJoints
 from twinform.passes.legalise.to_urdf.map_materials import MapMaterials
 from twinform.passes.legalise.to_urdf.map_surfaces import MapSurfaces
 from twinform.passes.legalise.to_urdf.rebase_links import RebaseLinks
-from twinform.passes.legalise.to_urdf.resolve_joint_ends import ResolveJointEnds
 from twinform.passes.legalise.to_urdf.restore_links import RestoreLinks
 from twinform.passes.legalise.to_urdf.restore_shapes import RestoreShapes
 from twinform.passes.legalise.to_urdf.select_model import SelectModel
 from twinform.passes.legalise.to_urdf.share_visuals import ShareVisuals
-from twinform.passes.legalise.to_urdf.turn_frames_into_links import TurnFramesIntoLinks
 from twinform.passes.legalise.to_urdf.unfold_joints import UnfoldJoints
-from twinform.passes.legalise.to_urdf.unpack_urdf import UnpackUrdf
 from twinform.passes.legalise.to_urdf.upgrade_sdf import UpgradeSdf
 from twinform.passes.legalise.unwritten_masses import FillInertials
 from twinform.passes.sdf_versions.replace_shapes import FoldCapsules, FoldShapeMeshes

@@ -1,15 +1,17 @@
-"""Reverse conversion of joints: restoring how the SDF source wrote them."""
+"""How joints are written: between links and with axes in their own frames in URDF, and in SDF again as it had them."""
 
 import math
 from typing import ClassVar
 
-from twinform.diagnostics import DiagnosticSink
+from twinform.diagnostics import DiagnosticSink, rules
 from twinform.diagnostics.rules import STALE_CARRIER
 from twinform.ir import Axis, Format, Joint, Limit, Model
-from twinform.ir.defaults import UNLIMITED, multiplier
+from twinform.ir.defaults import AXIS, UNLIMITED, direction, filled, multiplier
+from twinform.ir.frames import MODEL, WORLD, FrameGraph
 from twinform.passes.carriers.annotations import (
     CONTINUOUS,
     MIMIC,
+    OLD_NAME,
     REVERSED,
     SYNTHESIZED,
     came_from,
@@ -17,9 +19,98 @@ from twinform.passes.carriers.annotations import (
     without_annotation,
 )
 from twinform.passes.framework.pass_base import ModelPass
+from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
+from twinform.passes.shared.joint_ends import ENDS, named_ends, report_self_joint, resolve_ends
 from twinform.passes.structure.reversal import REVERSIBLE, reroot_sdf
 
-_AXES = ("axis", "axis2")
+
+class ResolveJointEnds(ToUrdfPass):
+    """Let every joint connect the links that the frames at its ends move with.
+
+    Changes: a parent or child that is a frame, a nested model or `__model__`. The joint stays where it is: its pose
+    names the frame that it was relative to.
+    Diagnostics: `self-joint` where both ends move with one link; in the ledger `joint-end`.
+    """
+
+    name: ClassVar[str] = "resolve-joint-ends"
+
+    def run_model(self, model: Model, keeper: UrdfKeeper) -> Model:
+        """The model with joints between links."""
+        links = {link.name for link in model.links} | {WORLD}
+        if all(joint.parent in links and joint.child in links for joint in model.joints):
+            return model
+        graph = FrameGraph(model)
+        return model.copy(joints=tuple(_resolve_joint(joint, links, graph, keeper) for joint in model.joints))
+
+
+def _resolve_joint(joint: Joint, links: set[str], graph: FrameGraph, keeper: UrdfKeeper) -> Joint:
+    resolved, pieces = resolve_ends(joint, links, graph)
+    if not pieces:
+        return joint
+    if resolved.parent == resolved.child:
+        report_self_joint(joint, resolved, keeper.sink)
+        return joint
+    message = f"joint {joint.name!r} is attached to {named_ends(pieces)}; what is written is the link that carries it"
+    keeper.account(rules.JOINT_END, message, joint.location, sum(piece.weight for piece in pieces))
+    ends = {piece.element.name: piece.element.text for piece in pieces if piece.element}
+    return keeper.annotate(resolved, ENDS, attributes=ends)
+
+
+_AXES = {
+    **dict.fromkeys(("revolute", "continuous", "prismatic", "screw"), ("axis",)),
+    **dict.fromkeys(("universal", "revolute2", "gearbox"), ("axis", "axis2")),
+}
+"""The axes that mean something, by the type of the joint."""
+
+
+class ExpressAxes(ToUrdfPass):
+    """Write every axis, in the joint frame.
+
+    Changes: 1. an axis that is expressed in another frame is turned into the joint's; its numbers stay where that is no
+    turn; 2. an axis that is not written is SDF's, z. Joints with two axes have both of them written so.
+    Diagnostics: `zero-axis`; in the ledger `axis-frame`.
+    """
+
+    name: ClassVar[str] = "express-axes"
+
+    def run_model(self, model: Model, keeper: UrdfKeeper) -> Model:
+        """The model with its axes in the joint frames."""
+        if not any(joint.type in _AXES for joint in model.joints):
+            return model
+        graph = FrameGraph(model)
+        joints: list[Joint] = []
+        for joint in model.joints:
+            expressed = joint
+            for field in _AXES.get(joint.type, ()):
+                expressed = _express_axis(expressed, field, graph, keeper)
+            joints.append(expressed)
+        return model.copy(joints=tuple(joints))
+
+
+def _express_axis(joint: Joint, field: str, graph: FrameGraph, keeper: UrdfKeeper) -> Joint:
+    written: Axis | None = getattr(joint, field)
+    axis = written or Axis.unchecked()
+    if axis.xyz is not None and not any(axis.xyz):
+        message = f"the {field} of joint {joint.name!r} has length zero"
+        keeper.sink.report(rules.ZERO_AXIS, message, axis.location, found="0 0 0")
+    if not axis.expressed_in:
+        made = filled(axis, {"xyz": AXIS[Format.SDF]})
+        return joint if made is axis else joint.copy(**{field: made})
+    turn = graph.pose(axis.expressed_in, joint.name, kind="frame", base="joint")
+    x, y, z = turn.rotate(direction(axis, Format.SDF))
+    # Adding zero turns -0.0 into 0.0, which would be written otherwise.
+    xyz = (x + 0.0, y + 0.0, z + 0.0)
+    made = axis.copy(**{"xyz": xyz, "expressed_in": None, OLD_NAME: None})
+    turned = joint.copy(**{field: made})
+    message = f"the {field} of joint {joint.name!r} is expressed in {axis.expressed_in!r}"
+    keeper.account(rules.AXIS_FRAME, message, axis.location, 2)
+    word: dict[str, str | None] = {"expressed_in": axis.expressed_in}
+    if axis.use_parent_model_frame:
+        word = {OLD_NAME: "true", "expressed_in": None if axis.expressed_in == MODEL else axis.expressed_in}
+    return keeper.annotate(turned, field, attributes=word)
+
+
+_AXIS_FIELDS = ("axis", "axis2")
 _NUMBERS = ("lower", "upper", "effort", "velocity")
 
 
@@ -45,7 +136,9 @@ class RestoreJoints(ModelPass):
 
 def _restore_joint(joint: Joint, sink: DiagnosticSink) -> Joint:
     joint = _restore_mimic(without_annotation(joint, SYNTHESIZED), sink)
-    axes = {name: axis for name in _AXES if (axis := getattr(joint, name)) is not None and axis.limit is not None}
+    axes = {
+        name: axis for name in _AXIS_FIELDS if (axis := getattr(joint, name)) is not None and axis.limit is not None
+    }
     if axes:
         joint = joint.copy(**{name: _without_infinities(axis) for name, axis in axes.items()})
     return _restore_continuous(joint, sink)
