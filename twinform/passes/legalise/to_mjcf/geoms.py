@@ -61,6 +61,7 @@ def geom_elements(context: MjcfContext, body: Body) -> list[Element]:
     found: list[Element] = []
     twins = {each.name: each for each in body.link.visuals if find_annotation(each, SAME_GEOM) is not None}
     hides = any(_kept_group(each) in {"1", "2"} for each in body.link.visuals)
+    parted = {each.name: each for each in body.link.collisions if each.name in twins}
     done: set[int] = set()
     for collision in body.link.collisions:
         if (shape := _shape_of(context, body, collision)) is not None:
@@ -80,7 +81,10 @@ def geom_elements(context: MjcfContext, body: Body) -> list[Element]:
             # Beside visuals in their own group, one that touches too would count as hidden.
             group = [] if done else _group(context, visual, _SEEN, hides=hides)
             weightless = () if context.is_of_mjcf else _WEIGHTLESS
-            more = [*_UNTOUCHED, *group, *weightless, *look_of(context, body, visual)]
+            looks = look_of(context, body, visual, other := parted.get(visual.name))
+            if other is not None and (material := _kept(other, "material")):  # only the collision was changed
+                looks = [("material", material), *looks]
+            more = [*_UNTOUCHED, *group, *weightless, *looks]
             found.append(_geom(context, body, visual, shape, more, seen=visual))
     return found
 

@@ -4,9 +4,11 @@ A model of SDF that was read of MJCF keeps `<tf:mjcf><actuator><motor joint="hip
 was given actuators by a pass does too. In a world with several models the joint is called otherwise in MJCF.
 """
 
-from collections.abc import Mapping
+from collections.abc import Container, Mapping
 
-from twinform.ir import Element
+from twinform.diagnostics import Fate, rules
+from twinform.ir import Element, Model, World
+from twinform.ir.frames import WORLD
 from twinform.ir.scopes import SCOPE
 from twinform.passes.legalise.to_mjcf.assets import file_path
 from twinform.passes.legalise.to_mjcf.kept_mjcf import SINGLE, kept_elements, merged
@@ -18,6 +20,10 @@ _RENAMED = frozenset({"joint", "body", "site"})
 """The kinds of parts that may have another name in MJCF than where they were kept."""
 _BY_TYPE: Mapping[str, str] = {"objname": "objtype", "refname": "reftype"}
 """Attributes that name a part whose kind stands in another one."""
+
+
+_ABOUT_PARTS = frozenset({"actuator", "contact", "equality", "sensor"})
+"""Sections whose elements are about what they name, and are nothing without that."""
 
 
 class _Names:
@@ -48,6 +54,8 @@ def add_kept_sections(context: MjcfContext) -> None:
     """Add what the holder and all models in it keep. All other sections are complete."""
     inner = [(scope, each) for scope, each in context.models if each is not context.holder]
     names, sections = _Names(context), _Sections(context)
+    written = (part for body in context.sections.get("worldbody", ()) for part in body.walk())
+    there = {("joint" if part.name == "freejoint" else part.name, part.get("name")) for part in written}
     for scope, each in (("", context.holder), *inner):
         for kept in kept_elements(each):
             if kept.name in SINGLE:
@@ -55,9 +63,25 @@ def add_kept_sections(context: MjcfContext) -> None:
                 continue
             for part in kept.children:
                 renamed = _renamed(part, names, scope)
+                if kept.name in _ABOUT_PARTS and (gone := _gone(renamed, there)):
+                    _report_stale(context, renamed, gone, each)
+                    continue
                 sections.add(kept.name, _with_paths(context, renamed) if kept.name == "asset" else renamed)
     for scope, reading in context.kept_readings:
         sections.add("sensor", _renamed(reading, names, scope))
+
+
+def _gone(part: Element, there: Container[tuple[str, str | None]]) -> str | None:
+    """The body, joint or site that an element names and that is not there any more, such as `joint 'hip'`."""
+    named = ((kind, value) for key, value in part.attributes if (kind := _kind(part, key)))
+    return next((f"{kind} {value!r}" for kind, value in named if value != WORLD and (kind, value) not in there), None)
+
+
+def _report_stale(context: MjcfContext, part: Element, gone: str, holder: Model | World) -> None:
+    where = holder.location
+    message = f"<{part.name}> {part.get('name') or ''} is kept for {gone}, which is not there any more"
+    context.sink.account(Fate.DROPPED, rules.STALE_CARRIER, message, where, 1)
+    context.sink.report(rules.STALE_CARRIER, message, where, found=gone)
 
 
 class _Sections:
