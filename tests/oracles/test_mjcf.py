@@ -118,6 +118,39 @@ def test_a_robot_with_meshes_of_a_package_is_made_readable(tmp_path: Path) -> No
         with_files(robot, made)
 
 
+_PAINT = "newmtl red\nKd 0.8 0.1 0.2\nd 0.5\nnewmtl blue\nKd 0 0 1\n"
+
+
+@pytest.mark.parametrize(
+    ("used", "own", "expected"),
+    [
+        (["red"], "", (0.8, 0.1, 0.2, 0.5)),
+        (["red", "blue"], "", (0.5, 0.5, 0.5, 1)),
+        (["red"], '<material name="g"><color rgba="0 1 0 1"/></material>', (0, 1, 0, 1)),
+    ],
+    ids=["one", "several", "own"],
+)
+def test_the_color_of_a_mesh_file_is_that_of_its_geom(
+    tmp_path: Path, used: list[str], own: str, expected: tuple[float, ...]
+) -> None:
+    faces = _OCTAHEDRON.replace("f 1 3 5", f"usemtl {used[0]}\nf 1 3 5").replace(
+        "f 3 1 6", f"usemtl {used[-1]}\nf 3 1 6"
+    )
+    (tmp_path / "part.obj").write_text(f"mtllib part.mtl\n{faces}")
+    (tmp_path / "part.mtl").write_text(_PAINT)
+    path = tmp_path / "robot.urdf"
+    mesh = '<visual><geometry><mesh filename="part.obj"/></geometry>'
+    path.write_text(f'<robot name="r"><link name="a">{mesh}{own}</visual></link></robot>')
+    made = twinform.convert(path, to="mjcf")
+    assert compile_mjcf(made.text, str(tmp_path)).model.geom_rgba[0] == pytest.approx(expected)
+    assert ["several colors" in each.message for each in made.ledger.entries].count(True) == len(used) - 1
+    home = twinform.convert(made.text.encode(), to="urdf").text
+    assert ("<material" in home) == bool(own)
+    if not own and len(used) == 1:
+        edited = twinform.convert(made.text.replace("0.8 0.1 0.2 0.5", "0 0 1 1").encode(), to="urdf").text
+        assert 'rgba="0 0 1 1"' in edited
+
+
 _FLAT = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n"
 
 

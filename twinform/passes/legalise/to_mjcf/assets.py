@@ -48,7 +48,7 @@ def _extent(context: MjcfContext, uri: str) -> Extent:
     """What the points of a file span; each file is looked at once."""
     key = ("extent", uri)
     if key not in context.files:
-        path = _find(context, uri) if PurePosixPath(uri).suffix.lower().removeprefix(".") in _MESHES else None
+        path = find_file(context, uri) if PurePosixPath(uri).suffix.lower().removeprefix(".") in _MESHES else None
         context.files[key] = (Extent.SOLID if path is None else extent_of(context.assets.readable, path)).value
     return Extent(context.files[key])
 
@@ -84,7 +84,7 @@ def _why_unread(context: MjcfContext, mesh: Mesh, uri: str) -> str | None:
         )
     if mesh.scale is not None and 0.0 in mesh.scale:
         return "has a scale of 0, which MuJoCo refuses"
-    if kind == "stl" and (path := _find(context, uri)) is not None and not _is_binary_stl(context, path):
+    if kind == "stl" and (path := find_file(context, uri)) is not None and not _is_binary_stl(context, path):
         return "is STL as text, and MuJoCo reads it as binary alone"
     return None
 
@@ -144,7 +144,7 @@ def file_path(context: MjcfContext, uri: str, where: Location) -> str:
     _, separator, rest = uri.partition("://")
     if not separator:
         return uri
-    found = _find(context, uri)
+    found = find_file(context, uri)
     folder = context.assets.folder
     if found is None:
         path = unquote(rest)
@@ -157,7 +157,7 @@ def file_path(context: MjcfContext, uri: str, where: Location) -> str:
     return Path(os.path.relpath(found.absolute(), folder.absolute())).as_posix()
 
 
-def _find(context: MjcfContext, uri: str) -> Path | None:
+def find_file(context: MjcfContext, uri: str) -> Path | None:
     """The file of a URI; None where there is none that may be read."""
     try:
         return context.assets.find(uri)

@@ -127,7 +127,9 @@ def _geom(
     at = context.resolve(part.pose, body).compose(shape.at)
     attributes = [("name", name), *shape.attributes, *placement(at), *more]
     element = with_kept(make_element("geom", attributes, (), part.source), part)
-    if seen is not None and seen.material is None:  # it was deleted: what is read of MJCF has the colors of its geom
+    if (
+        context.is_of_mjcf and seen is not None and seen.material is None
+    ):  # it was deleted: what is read of MJCF has the colors of its geom
         return element.copy(attributes=tuple(pair for pair in element.attributes if pair[0] not in _COLORS))
     return with_known_material(context, element)
 

@@ -4,10 +4,12 @@ from pathlib import PurePosixPath
 
 from twinform.diagnostics import Location, rules
 from twinform.ir import Collision, Element, Visual
-from twinform.passes.legalise.to_mjcf.assets import file_path
+from twinform.ir.geometry import Mesh
+from twinform.passes.legalise.to_mjcf.assets import file_path, find_file
 from twinform.passes.legalise.to_mjcf.elements import Value, attribute_text, make_element
 from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements
 from twinform.passes.legalise.to_mjcf.looks import Look, look
+from twinform.passes.legalise.to_mjcf.mesh_colors import Several, color_of
 from twinform.passes.legalise.to_mjcf.writing_context import Body, MjcfContext
 
 _IMAGES = frozenset({".png", ".ktx"})
@@ -33,8 +35,26 @@ def look_of(context: MjcfContext, body: Body, visual: Visual, twin: Collision | 
         return _of_kept_material(context, kept.get("material") or "", found, has_own=kept.get("rgba") is not None)
     textures = _textures(context, visual, found)
     if not found.material and not textures:
-        return [("rgba", found.rgba)]
+        return [("rgba", found.rgba or _color_of_file(context, visual))]
     return [("material", _material(context, body, visual, found, textures))]
+
+
+def _color_of_file(context: MjcfContext, visual: Visual) -> tuple[float, ...] | None:
+    """The color that the mesh of a visual gives itself, where the visual has none and MuJoCo would read none."""
+    shape = visual.geometry.shape if visual.geometry else None
+    if visual.material is not None or context.is_of_mjcf or not isinstance(shape, Mesh):
+        return None
+    uri = (shape.uri or "").strip()
+    if uri not in context.colors_of_files:
+        path = find_file(context, uri)
+        context.colors_of_files[uri] = None if path is None else color_of(context.assets.readable, path)
+    color = context.colors_of_files[uri]
+    if isinstance(color, Several):
+        message = f"mesh {uri!r} of visual {visual.name!r} has several colors or an image, which MuJoCo does not read"
+        context.approximate(rules.NOT_IN_MJCF, message, visual.location, 0)
+        context.sink.report(rules.NOT_IN_MJCF, message, visual.location, found=uri)
+        return None
+    return color
 
 
 def _of_kept_material(context: MjcfContext, name: str, found: Look, *, has_own: bool) -> list[tuple[str, Value]]:

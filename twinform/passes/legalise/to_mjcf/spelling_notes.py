@@ -133,7 +133,9 @@ class SpellingNotes:
     def _on_visual(self, visual: Visual) -> Iterable[Opaque]:
         """As on a shape, and the elements that say how it looks, if they say it in another way than SDF."""
         yield from self._on_shape(visual)
-        if visual.material is not None and said_by_mjcf(visual.material) is None:
+        geom = self.file.geom(visual)
+        is_of_file = visual.material is None and geom is not None and geom.get("rgba") is not None  # that of its mesh
+        if is_of_file or (visual.material is not None and said_by_mjcf(visual.material) is None):
             yield from self.look(visual)
 
     def look(self, visual: Visual) -> Iterable[Opaque]:

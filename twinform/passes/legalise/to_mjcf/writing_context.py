@@ -34,6 +34,7 @@ from twinform.passes.framework.assets import NO_ASSETS, Assets
 from twinform.passes.legalise.to_mjcf.contact_plan import ContactPlan
 from twinform.passes.legalise.to_mjcf.friction import Friction, friction_priorities
 from twinform.passes.legalise.to_mjcf.kept_mjcf import ROOT, kept_elements
+from twinform.passes.legalise.to_mjcf.mesh_colors import Rgba, Several
 from twinform.passes.legalise.to_mjcf.rotors import Rotor, rotors_of
 from twinform.passes.shared.replaced_shapes import ShapeReplacer
 
@@ -85,6 +86,7 @@ class MjcfContext:
         kept_readings: the readings that sensors keep, each with the prefix of the names in it.
         kept_sensors: the sensors with such readings, by the identities of their sources.
         files: `asset` elements by what they are made of, so that equal ones are shared.
+        colors_of_files: the colors that mesh files give themselves, by their URIs.
         sections: what stands outside of `worldbody`, by the name of the section, in the order in which it was added.
     """
 
@@ -107,6 +109,7 @@ class MjcfContext:
     kept_readings: list[tuple[str, Element]] = field(default_factory=list[tuple[str, Element]])
     kept_sensors: set[int] = field(default_factory=set[int])
     files: dict[object, str | None] = field(default_factory=dict[object, str | None])
+    colors_of_files: dict[str, Rgba | Several | None] = field(default_factory=dict[str, Rgba | Several | None])
     sections: dict[str, list[Element]] = field(default_factory=lambda: defaultdict(list))
 
     @property
