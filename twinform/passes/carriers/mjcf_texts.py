@@ -4,7 +4,6 @@ The data are the element of a partial node in the newest SDF. Newlines and tabs 
 programs that save MJCF write them as they are, and other readers of XML take a newline in an attribute for a blank.
 """
 
-import re
 from collections.abc import Callable, Iterable, Mapping
 from hashlib import sha256
 from typing import Any, NamedTuple
@@ -95,7 +94,9 @@ def node_data(node: Node, kind: str) -> str:
 def xml_data(xml: XmlElement) -> str:
     """A tree as the data of a carrier."""
     text = etree.tostring(xml, encoding="unicode")
-    return re.sub("[\n\t\r]", lambda found: _REFERENCES[found[0]], text)
+    for character, reference in _REFERENCES.items():
+        text = text.replace(character, reference)
+    return text
 
 
 def parse_data(data: str) -> XmlElement:
