@@ -30,7 +30,7 @@ OTHERS = {
     "compiler/model_config.py": "calls `read_bytes` of `compiler/input/parsing.py`",
     "compiler/input/loading.py": "calls `read_bytes` of `compiler/input/parsing.py`",
     "compiler/input/expand_xacro.py": "calls `read_bytes` of `compiler/input/parsing.py`",
-    "compiler/input/mjcf/attach_models.py": "calls `read_bytes` of `compiler/input/parsing.py`",
+    "compiler/input/mjcf/model_files.py": "calls `read_bytes` of `compiler/input/parsing.py`",
     "compiler/input/mjcf/splice_includes.py": "calls `read_bytes` of `compiler/input/parsing.py`",
     "compiler/input/included_parts.py": "calls `read_bytes` of `compiler/input/parsing.py`",
     "compiler/input/xacro/channel.py": NOWHERE,
