@@ -69,3 +69,11 @@ def test_edits_of_mjcf_win(name: str) -> None:
         edits, edited = draw_edits(before.text, Random(seed))
         verdict = judge_edits(before, edits, edited)
         assert not verdict.is_fault, "\n".join((*map(str, edits), *verdict.differences))
+
+
+def test_no_condim_is_written_that_mujoco_refuses() -> None:
+    source = (_CASES / "from_mjcf/friction.expected.sdf").read_bytes()
+    assert b'condim="6"' in source
+    made = convert(source.replace(b'condim="6"', b'condim="5"'), to="mjcf")
+    mujoco.MjModel.from_xml_string(made.text)
+    assert "stale-carrier" in {each.rule.name for each in made.diagnostics}

@@ -2,10 +2,13 @@
 
 from collections.abc import Iterator
 
+from twinform.diagnostics import rules
 from twinform.ir import Collision
 from twinform.passes.legalise.to_mjcf.contact_plan import USUAL, Bits
 from twinform.passes.legalise.to_mjcf.elements import Value, make_element
 from twinform.passes.legalise.to_mjcf.friction import (
+    ROLLING_CONDIM,
+    TORSIONAL_CONDIM,
     USUAL_CONDIM,
     USUAL_FRICTION,
     Friction,
@@ -14,6 +17,9 @@ from twinform.passes.legalise.to_mjcf.friction import (
 )
 from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements
 from twinform.passes.legalise.to_mjcf.writing_context import Body, MjcfContext
+
+_CONDIMS = frozenset({0, 1, USUAL_CONDIM, TORSIONAL_CONDIM, ROLLING_CONDIM})
+"""The numbers of directions that MuJoCo takes; 0 stands for none written."""
 
 
 def touch_of(context: MjcfContext, body: Body, collision: Collision) -> list[tuple[str, Value]]:
@@ -37,7 +43,11 @@ def _friction(context: MjcfContext, collision: Collision) -> Iterator[tuple[str,
     numbers = (friction.sliding, *_lengths(collision, friction))
     if len(numbers) > 1 or (surface is not None and surface.mu is not None):
         yield "friction", numbers
-    if friction.condim > max(_kept_condim(collision), USUAL_CONDIM):
+    kept = _kept_condim(collision)
+    if kept not in _CONDIMS:
+        message = f"a contact has 1, 3, 4 or 6 directions, and collision {collision.name!r} keeps a condim of {kept}"
+        context.sink.report(rules.STALE_CARRIER, message, collision.location, found=str(kept))
+    if friction.condim > max(kept, USUAL_CONDIM) or kept not in _CONDIMS:
         yield "condim", str(friction.condim)
     if not context.is_of_mjcf and (priority := context.friction_priorities[friction]):
         yield "priority", str(priority)
