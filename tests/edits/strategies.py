@@ -4,6 +4,7 @@ from collections.abc import Callable
 from random import Random
 from typing import Literal
 
+from hypothesis import reject
 from hypothesis import strategies as st
 from lxml import etree
 
@@ -13,7 +14,7 @@ from testbed.edits.drawing import MOST, draw_edit
 from testbed.edits.scene import Scene
 from tests.mutations import MUTATIONS, OF_SDF, OF_URDF, Mutation
 from tests.schema_documents import document
-from twinform.compiler import convert
+from twinform.compiler import CompileError, convert
 from twinform.compiler.output.emitting import emit
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document, Format
@@ -50,8 +51,12 @@ def edited_files(
     max_size: int = MOST,
     sdf_version: str | None = None,
     draw: Draw | None = None,
+    as_mjcf: bool = False,
 ) -> st.SearchStrategy[EditedFile]:
-    """What a model becomes in the other format, and edits of that file, drawn from all kinds or by `draw`."""
+    """What a model becomes in the other format, and edits of that file, drawn from all kinds or by `draw`.
+
+    With `as_mjcf` that is MJCF, and models are left out that MuJoCo would refuse, such as those that move without mass.
+    """
 
     def edit(text: bytes) -> st.SearchStrategy[EditedFile]:
         drawn = edits(text=text, max_size=max_size)
@@ -60,6 +65,11 @@ def edited_files(
         return st.tuples(st.just(text), drawn)
 
     def convert_(model: Document) -> bytes:
+        if as_mjcf:
+            try:
+                return convert(emit(model, DiagnosticSink()).encode(), to="mjcf").text.encode()
+            except CompileError:
+                reject()
         to_sdf = model.format is Format.URDF
         made = convert(
             emit(model, DiagnosticSink()).encode(),

@@ -31,6 +31,12 @@ def test_an_edit_of_urdf_that_was_sdf_wins(edited: tuple[bytes, tuple[Edit, ...]
     assert_edits_win(*edited)
 
 
+@_SETTINGS
+@given(edited_files(models=strategies.robots(max_links=4), as_mjcf=True))
+def test_an_edit_of_mjcf_that_was_urdf_wins(edited: tuple[bytes, tuple[Edit, ...]]) -> None:
+    assert_edits_win(*edited, to="urdf")
+
+
 @pytest.mark.parametrize("version", ["1.6", "1.8", "1.9"])
 def test_an_edit_of_older_sdf_wins(version: str) -> None:
     @_FEW
