@@ -140,3 +140,12 @@ def test_without_carriers_nothing_of_ours_is_written_and_the_ledger_has_it() -> 
     assert "twinform" not in made.text
     dropped = [each.message for each in made.ledger.entries if each.fate.value == "dropped"]
     assert "<velocity> of joint 'wrist' has no equivalent in MJCF" in dropped
+
+
+def test_a_body_without_mass_comes_back_from_urdf() -> None:
+    arm = b"""<mujoco model="arm"><worldbody><body name="base">
+      <inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/><freejoint/><body name="tip" pos="0 0 1"/>
+    </body></worldbody></mujoco>"""
+    there = convert(arm, to="urdf")
+    assert there.diagnostics == ()
+    assert '<body name="tip" pos="0 0 1"/>' in convert(there.text.encode(), to="mjcf").text

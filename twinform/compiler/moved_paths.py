@@ -1,6 +1,7 @@
-"""Rewrites the relative paths of a document for another folder."""
+"""Rewrites the relative paths of a document for another folder, and names the files of two documents alike."""
 
 import os
+from collections.abc import Mapping
 from dataclasses import field
 from pathlib import Path
 from typing import Literal
@@ -81,6 +82,35 @@ def moved(document: Document, source: LocalAssets, folder: Path, sink: Diagnosti
         return made
 
     return map_uris(document, change), assets
+
+
+def relative_files(document: Document, source: LocalAssets) -> dict[Path, str]:
+    """Return the files that relative paths of a document lead to, by their real paths, with what names each first."""
+    files = dict[Path, str]()
+
+    def note(uri: str, _kind: str, _where: Location) -> str:
+        if (file := _real_file(uri, source)) is not None:
+            files.setdefault(file, uri)
+        return uri
+
+    map_uris(document, note)
+    return files
+
+
+def named_alike(document: Document, source: LocalAssets, files: Mapping[Path, str]) -> Document:
+    """Return a document that calls each file as `files` do, where a relative path leads to one of them."""
+
+    def change(uri: str, _kind: str, _where: Location) -> str:
+        file = _real_file(uri, source)
+        return uri if file is None else files.get(file, uri)
+
+    return map_uris(document, change) if files else document
+
+
+def _real_file(uri: str, source: LocalAssets) -> Path | None:
+    path = _relative_path(uri)
+    found = None if path is None else _find_file(path, source)
+    return None if found is None else found.resolve()
 
 
 def _relative_path(uri: str) -> str | None:

@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import Unpack
+from typing import NamedTuple, Unpack
 
 from twinform.compiler.compare.compared_robot import ComparedRobot, Leaves, LinkPart
 from twinform.compiler.compare.comparison import (
@@ -35,6 +35,7 @@ from twinform.compiler.input.loading import (
     name_of_input,
     read,
 )
+from twinform.compiler.moved_paths import named_alike, relative_files
 from twinform.compiler.resolve_uris import LocalAssets
 from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, LineOrigins, Source
@@ -163,6 +164,17 @@ class Robots:
     by_name: dict[str, ComparedRobot]
     around: dict[str, WorldSurroundings]
     origins: Mapping[str, LineOrigins]
+    files: Mapping[Path, str]
+    """The files that its relative paths lead to, with what it calls each."""
+
+
+class Known(NamedTuple):
+    """What is known of one file when the other one is read."""
+
+    names: frozenset[str]
+    """The names of its links, joints and frames, which names of USD may stand for."""
+    files: Mapping[Path, str]
+    """The files that it names by relative paths, which another path of the other file may lead to."""
 
 
 def read_robots(
@@ -173,12 +185,11 @@ def read_robots(
     model: str | None,
     readers: Iterable[ComparingReader],
     alike: Memo,
-    known: frozenset[str] | None = None,
+    known: Known | None = None,
 ) -> dict[ComparingReader, Robots]:
     """Read the robots of a file as each reader sees them; `model` chooses one of several.
 
-    `known` are the names of the other file, which names of USD may stand for. Readers that see the same share one
-    object, and so do files through `alike`.
+    `known` is of the other file. Readers that see the same share one object, and so do files through `alike`.
 
     Raises:
         CompileError: the file has an error, or no such model.
@@ -188,7 +199,7 @@ def read_robots(
         from twinform.compiler.usd import read_usd  # noqa: PLC0415 - few files are USD
 
         there = source if isinstance(source, bytes) else Path(str(source))
-        loaded = read_usd(there, load_options, name=name, model=model, known=known)
+        loaded = read_usd(there, load_options, name=name, model=model, known=known and known.names)
     else:
         loaded = read(source, load_options, name=name)
     if loaded.accepted and loaded.document is not None and loaded.document.format is Format.SDF:
@@ -202,13 +213,16 @@ def read_robots(
         raise loaded.error()
     sink = DiagnosticSink(loaded.path, load_options.strict, origins=dict(loaded.origins))
     assets = LocalAssets(load_options.search, Path(loaded.path))
+    files = relative_files(document, assets)
+    document = named_alike(document, assets, known.files if known else {})
     read_before: dict[int, Robots] = {}
     found: dict[ComparingReader, Robots] = {}
     memos = defaultdict[str | None, Memo](Memo)
     for reader, seen in as_read_by(document, readers).items():
         if id(seen) not in read_before:
             build = partial(_build_once, memos, alike, reader, of_usd)
-            read_before[id(seen)] = _robots_seen(loaded, seen, model, build, sink, assets)
+            robots = _robots_seen(loaded, seen, model, build, sink, assets)
+            read_before[id(seen)] = replace(robots, files=files)
         found[reader] = read_before[id(seen)]
     return found
 
@@ -257,7 +271,7 @@ def _robots_seen(
         error.report(sink)
     if sink.has_errors:
         raise CompileError(tuple(sink.diagnostics))
-    return Robots(loaded.path, document.format, robots, around, loaded.origins)
+    return Robots(loaded.path, document.format, robots, around, loaded.origins, {})
 
 
 def _select_robots(
@@ -369,7 +383,7 @@ def compare_files(
                 robots[side] = read_robots(
                     inputs[side], load_options, name=names[side], model=model, readers=readers, alike=alike, known=known
                 )
-                known = _names_in(robots[side][readers[-1]])
+                known = _known_of(robots[side][readers[-1]])
             except CompileError as error:
                 errors[side] = error
         if errors:
@@ -381,10 +395,10 @@ def compare_files(
         return Comparison(*names, tolerance, tuple(_compare_for_readers(one, other, tolerance)))
 
 
-def _names_in(robots: Robots) -> frozenset[str]:
-    """Return the names of all links, joints and frames."""
+def _known_of(robots: Robots) -> Known:
     each = robots.by_name.values()
-    return frozenset(name for robot in each for part in (robot.bodies, robot.joints, robot.frames) for name in part)
+    names = (name for robot in each for part in (robot.bodies, robot.joints, robot.frames) for name in part)
+    return Known(frozenset(names), robots.files)
 
 
 def _display_name(source: Input | LoadResult, default: str) -> str:

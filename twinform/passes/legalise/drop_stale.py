@@ -6,9 +6,10 @@ from typing import ClassVar, TypeVar
 from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, Fate
 from twinform.diagnostics.rules import STALE_CARRIER
-from twinform.ir import Document, Format, Model, Node, Opaque, census_of, map_children
+from twinform.ir import Document, Format, Inertial, Model, Node, Opaque, census_of, map_children
 from twinform.passes.carriers.annotations import came_from, without_provenance
 from twinform.passes.carriers.carriers import NAMESPACE, PREFIX, SOURCE, bits_of_ours, has_ours, is_carrier, is_memory
+from twinform.passes.carriers.token_mass import UNSAID, is_token
 from twinform.passes.framework.pass_base import ModelPass
 
 AnyNode = TypeVar("AnyNode", bound=Node)
@@ -89,13 +90,15 @@ class _Dropping:
         if not census_of(node) & self.having:
             return node
         parts = node.opaque
-        kept = tuple([part for part in parts if not self._is_stale(part)]) if parts else parts
+        kept = tuple([part for part in parts if not self._is_stale(part, node)]) if parts else parts
         if len(kept) != len(parts):
+            self.dropped.extend((part, node) for part in parts if self._is_stale(part, node))
             node = node.copy(opaque=kept)
-            self.dropped.extend((part, node) for part in parts if self._is_stale(part))
         return map_children(node, self.without)
 
-    def _is_stale(self, part: Opaque) -> bool:
+    def _is_stale(self, part: Opaque, node: Node) -> bool:
+        if is_carrier(part, UNSAID) and isinstance(node, Inertial) and is_token(node):
+            return False  # of a body of MJCF without mass: a link of URDF may have the token too
         return (part.element is not None and part.element.name in self.kinds) or is_memory(part)
 
     def report(self, sink: DiagnosticSink) -> None:

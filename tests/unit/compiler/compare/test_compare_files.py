@@ -1,6 +1,7 @@
 """Robots of which both files say the same are read once."""
 
 from importlib import import_module
+from pathlib import Path
 from unittest.mock import patch
 
 import twinform
@@ -28,3 +29,15 @@ def test_a_robot_that_both_files_have_has_its_place_in_each() -> None:
     lines = {(each.a.location.line, each.b.location.line) for each in found.differences if each.aspect == ""}
     assert (3, 0) in lines
     assert (0, 4) in lines
+
+
+def test_paths_from_two_folders_to_one_file_are_the_same(tmp_path: Path) -> None:
+    mesh = "<geometry><mesh><uri>{}</uri></mesh></geometry>"
+    model = f'<sdf version="1.11"><model name="m"><link name="l"><visual name="v">{mesh}</visual></link></model></sdf>'
+    for name, uri in {"a/arm.sdf": "hand.stl", "b/arm.sdf": "../a/hand.stl", "c/arm.sdf": "../b/hand.stl"}.items():
+        (tmp_path / name).parent.mkdir()
+        (tmp_path / name).write_text(model.format(uri))
+    for name in ("a/hand.stl", "b/hand.stl"):
+        (tmp_path / name).write_text("solid hand\nendsolid hand\n")
+    assert twinform.diff(tmp_path / "a/arm.sdf", tmp_path / "b/arm.sdf").same
+    assert not twinform.diff(tmp_path / "a/arm.sdf", tmp_path / "c/arm.sdf").same

@@ -99,7 +99,7 @@ def mesh_of(asset: Piece) -> PlacedShape | None:
     x, y, z = (factor * each for factor, each in zip(scale, back.translation, strict=True))
     factors: Vector3 | None = (scale[0], scale[1], scale[2]) if any(each != 1 for each in scale) else None
     at = back if back.is_identity else Transform((x, y, z), back.rotation)
-    return PlacedShape(Mesh.unchecked(uri=file, scale=factors), at)
+    return PlacedShape(Mesh.unchecked(uri=file, scale=factors, source=asset.source), at)
 
 
 def _take_asset(geom: Piece, kind: str, asset: Piece) -> None:
@@ -118,4 +118,4 @@ def _heightmap(geom: Piece, assets: AssetTable) -> PlacedShape | None:
         asset.leave("size")  # how far it reaches below has no place in SDF
     _take_asset(geom, "hfield", asset)
     size = Element.unchecked(name="size", text=format_value((2 * x, 2 * y, top)))
-    return PlacedShape(Heightmap.unchecked(uri=file, opaque=(Opaque.unchecked(element=size),)))
+    return PlacedShape(Heightmap.unchecked(uri=file, opaque=(Opaque.unchecked(element=size),), source=asset.source))
