@@ -88,13 +88,18 @@ class FileLowering:
     def is_world(self) -> bool:
         """Whether the file is a world and not a model."""
         least = 1 if self.in_world else len(self.trees)
-        return len(self.trees) != least or any(each.tag == "geom" for each in self.sections.inside(WORLDBODY))
+        return len(self.trees) != least or self._has_ground
+
+    @property
+    def _has_ground(self) -> bool:
+        """Whether there are shapes that belong to the world itself."""
+        return any(each.tag == "geom" for each in self.sections.inside(WORLDBODY))
 
     def document(self) -> Document:
         """Build the document."""
         name = self.root.take("model")
         alone = len(self.trees) == 1
-        taken = {WORLDBODY}
+        taken = {WORLDBODY} if self._has_ground else set[str]()
         models = [
             self._model(number, tree, name if alone else tree.name, taken) for number, tree in enumerate(self.trees)
         ]
@@ -283,4 +288,5 @@ class FileLowering:
             source=bodies[0].source,
         )
         mark = (annotation(MADE_NAME, WORLDBODY),)
-        return (Model.unchecked(name=WORLDBODY, static=True, links=(link,), opaque=mark, source=bodies[0].source),)
+        model = Model.unchecked(name=WORLDBODY, static=True, links=(link,), opaque=mark, source=bodies[0].source)
+        return (with_rest(model, in_sections({ROOT: [_MARK]})),)  # taken out of its world, it is still of MJCF

@@ -16,7 +16,7 @@ from twinform.passes.carriers.joint_chains import part_of
 from twinform.passes.legalise.changed_names import source_name
 from twinform.passes.legalise.to_mjcf.elements import make_element, placement
 from twinform.passes.legalise.to_mjcf.geoms import geom_elements
-from twinform.passes.legalise.to_mjcf.inertials import inertial_elements, report_weightless, weight_of
+from twinform.passes.legalise.to_mjcf.inertials import has_usual_weight, inertial_elements, report_weightless, weight_of
 from twinform.passes.legalise.to_mjcf.joints import joint_elements
 from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements, with_kept
 from twinform.passes.legalise.to_mjcf.lights import body_lights
@@ -122,7 +122,9 @@ class _BodyTree:
 
     def _body(self, name: str, hold: Hold, above: dict[str, Body]) -> Body:
         link = self.tree.links[name]
-        wish = self.context.wish("body", scope_of(name), source_name(link))
+        own = source_name(link)
+        # Of a URDF with nothing but a link `world` MJCF has the name that SDF has: the world itself has the other.
+        wish = self.context.wish("body", scope_of(name), link.name if own == WORLD else own)
         written = WORLD if name == self.world else self.context.name("body", wish, link) or name
         self.context.note_made_name("body", link, written)
         self.context.written_bodies[name] = written
@@ -175,6 +177,7 @@ def _world_link(context: MjcfContext) -> str | None:
     for scope, model in context.models:
         if model.static and find_annotation(model, MADE_NAME) is not None and len(model.links) == 1 and not model.pose:
             link = model.links[0]
-            is_world = link.name == model.name == WORLDBODY and not link.pose
+            # The world has no mass: a link that is read of its shapes has that which SDF gives to any link.
+            is_world = link.name == model.name == WORLDBODY and not link.pose and has_usual_weight(link)
             return scope + link.name if is_world and scope + link.name in context.static_links else None
     return None

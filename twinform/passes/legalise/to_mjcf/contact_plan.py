@@ -132,7 +132,8 @@ class ContactPlan:
     def _bits(self) -> Mapping[str, Bits]:
         """The bits of links in models that have a bit."""
         found: dict[str, Bits] = {}
-        if self._has_bits_of_geoms:
+        # The geoms of a file of MJCF keep the bits that they had: links that an edit keeps apart are excluded.
+        if self._has_bits_of_geoms or self._is_of_mjcf:
             return found
         apart = [links for links in self._groups.values() if any(self._needless_contacts(links))][:MOST_BITS]
         everything = (1 << len(apart)) - 1

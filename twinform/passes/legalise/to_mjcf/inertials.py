@@ -64,6 +64,11 @@ def weight_of(link: Link) -> Weight:
     return Weight(mass, inertia)
 
 
+def has_usual_weight(link: Link) -> bool:
+    """Whether a link has the mass and inertia that SDF gives to one that says nothing of them."""
+    return weight_of(link) == weight_of(link.copy(inertial=None))
+
+
 def _has_token_moments(inertial: Inertial) -> bool:
     if inertial.inertia is None or inertial.inertia.ixx not in (None, 0.0, TOKEN_MOMENT):
         return False

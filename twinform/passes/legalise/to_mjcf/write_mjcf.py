@@ -5,7 +5,8 @@ from typing import ClassVar
 
 from twinform.diagnostics import DiagnosticSink, Fate
 from twinform.ir import Document, Element, Format, Model, Opaque, World
-from twinform.ir.frames import FrameError
+from twinform.ir.frames import WORLD, FrameError
+from twinform.passes.carriers.annotations import WORLDBODY
 from twinform.passes.carriers.carriers import Keeper
 from twinform.passes.framework.pass_base import AssetPass
 from twinform.passes.legalise.to_mjcf.bodies import body_elements
@@ -80,7 +81,7 @@ class WriteMjcf(AssetPass):
         except FrameError as error:
             error.report(sink)
             return document
-        parts = [] if is_made_name(holder) else [Opaque.unchecked(attribute=("model", holder.name))]
+        parts = [] if _is_named_by_file(context) else [Opaque.unchecked(attribute=("model", holder.name))]
         parts += [Opaque.unchecked(element=each) for each in _in_order(context)]
         return Document.unchecked(format=Format.MJCF, opaque=tuple(parts), source=document.source)
 
@@ -98,6 +99,16 @@ def holder_of(document: Document) -> Model | World:
     if len(document.models) == 1:
         return document.models[0]
     return World.unchecked(name="world", models=document.models, lights=document.lights, source=document.source)
+
+
+def _is_named_by_file(context: MjcfContext) -> bool:
+    """Whether the name of what is written was made when it was read, and is made again.
+
+    The static model of the world's own shapes is called so only while these belong to no body.
+    """
+    holder = context.holder
+    is_scenery = isinstance(holder, Model) and holder.name == WORLDBODY
+    return is_made_name(holder) and (not is_scenery or WORLD in context.written_bodies.values())
 
 
 def _write_sections(context: MjcfContext) -> None:
