@@ -9,6 +9,7 @@ from twinform.ir import Element, Frame, Joint, Light, Link, Model, Node, Opaque,
 from twinform.passes.carriers.annotations import find_annotation, without_annotation
 from twinform.passes.carriers.mjcf_texts import PARTS, digest_of
 from twinform.passes.carriers.partial_nodes import REST
+from twinform.passes.legalise.changed_names import NAME
 from twinform.passes.legalise.to_mjcf.kept_mjcf import KEPT
 from twinform.schemas import XmlElement
 
@@ -113,7 +114,8 @@ def _is_made_of(sensor: Sensor, parts: frozenset[PartName]) -> bool:
     """Whether a sensor was lowered from elements that stand for one that comes back."""
     kept = [one for part in sensor.opaque if part.element and part.element.name == KEPT for one in part.element.walk()]
     readings = {(each.name, each.get("name") or "") for each in kept}
-    return bool(readings & parts) or ("camera", sensor.name or "") in parts
+    named = find_annotation(sensor, NAME)  # of a name that SDF cannot have
+    return bool(readings & parts) or ("camera", (named.text if named else sensor.name) or "") in parts
 
 
 def _opaque(parts: tuple[Opaque, ...], names: frozenset[PartName]) -> tuple[Opaque, ...]:

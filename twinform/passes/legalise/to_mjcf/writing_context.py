@@ -221,7 +221,9 @@ class MjcfContext:
         frames = [("", each) for each in self.holder.frames] if isinstance(self.holder, World) else []
         for scope, frame in (*frames, *((scope, each) for scope, model in self.models for each in model.frames)):
             name = scope + frame.name
-            found[self.tree.frames.body(name, kind="frame")].append(ScopedFrame(name, frame))
+            body = self.tree.frames.body(name, kind="frame")
+            # A frame of a model without links stands still.
+            found[body if body in self.tree.links else WORLD].append(ScopedFrame(name, frame))
             # before sensors are given theirs, because others refer to a frame by its name
             self.name("site", name, frame.location)
         return found
