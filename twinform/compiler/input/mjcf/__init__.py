@@ -28,7 +28,8 @@ def lower_mjcf(root: XmlElement, context: Context, load_options: LoadOptions) ->
     note_notation(root, context.sink)
     texts = take_texts(canonical, context)
     several = several_trees(texts)
-    document = lower(canonical, context, load_options, root, in_world=several is None)
+    was_world = True if any(each.kind == "world" for each in texts) else None
+    document = lower(canonical, context, load_options, root, in_world=was_world if several is None else False)
     if several is not None and len(document.models) > 1:
         document = join_trees(document, several)
     if not texts:

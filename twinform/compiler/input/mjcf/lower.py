@@ -43,11 +43,11 @@ _MODEL = "model"
 
 
 def lower(
-    root: XmlElement, context: Context, load_options: LoadOptions, file: XmlElement, *, in_world: bool = True
+    root: XmlElement, context: Context, load_options: LoadOptions, file: XmlElement, *, in_world: bool | None = None
 ) -> Document:
     """Build the document of a canonical tree, which was made of the tree of a file.
 
-    Without `in_world`, several trees of bodies are models in no world.
+    With `in_world` even a single tree of bodies is a model in a world; where it is False, several are in none.
     """
     lowering = FileLowering(Piece(root, context.file), context, load_options, file)
     lowering.in_world = in_world
@@ -59,7 +59,7 @@ class FileLowering:
 
     def __init__(self, root: Piece, context: Context, load_options: LoadOptions, file: XmlElement) -> None:
         self.root = root
-        self.in_world = True
+        self.in_world: bool | None = None
         self.sections = Sections(root)
         self.keeper = RemainderKeeper(context.sink, file)
         self.trees = [each for each in self.sections.inside(WORLDBODY) if each.tag == "body"]
@@ -87,8 +87,8 @@ class FileLowering:
     @property
     def is_world(self) -> bool:
         """Whether the file is a world and not a model."""
-        least = 1 if self.in_world else len(self.trees)
-        return len(self.trees) != least or self._has_ground
+        several = len(self.trees) != 1 and self.in_world is not False
+        return several or self._has_ground or self.in_world is True
 
     @property
     def _has_ground(self) -> bool:

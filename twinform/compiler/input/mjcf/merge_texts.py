@@ -18,7 +18,7 @@ from twinform.compiler.input.mjcf.restore_sensors import (
     without_parts_of_sensors,
 )
 from twinform.compiler.input.mjcf.spellings import Spellings
-from twinform.compiler.input.mjcf.usual_remainders import without_assets
+from twinform.compiler.input.mjcf.usual_remainders import without_assets, without_usual
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document, Format, Frame, Joint, Link, Model, Node, Opaque, Pose, World, replace_fields, rewrite
 from twinform.ir.element import Namespaces
@@ -327,7 +327,8 @@ class _Merged:
 
     def _as_world(self, model: Model, partial: World) -> World:
         lowered = self.lowered.worlds[0] if self.lowered.worlds else World.unchecked(name=partial.name)
-        lowered = lowered.copy(lights=without_lights(lowered.lights, self.parts))
+        # Without the mark of what was read of MJCF: this is the world of SDF that was written.
+        lowered = without_usual(lowered.copy(lights=without_lights(lowered.lights, self.parts)))
         lowered, partial = restored_settings(lowered, partial, self.root)
         world = lowered.copy(models=model.models, joints=model.joints, frames=model.frames, name=partial.name)
         world = self.merging.merge(world, partial)
