@@ -15,6 +15,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from lxml import etree
 
+from twinform.ir.defaults import UNLIMITED
+
 Array = Any
 """An array of numpy."""
 _OFF: tuple[str, ...] = ("fusestatic", "discardvisual", "balanceinertia", "strippath")
@@ -34,7 +36,7 @@ class UnreadableError(Exception):
 class JointFacts(NamedTuple):
     """What a joint of one freedom may do: its type, range, force, damping, friction and spring.
 
-    A range or force that is not limited is empty.
+    A range or force that is not limited is empty; a force as large as what a URDF or SDF has for none is not limited.
     """
 
     kind: int
@@ -98,7 +100,7 @@ class Compiled:
         model = self.model
         dof = int(model.jnt_dofadr[number])
         limited = bool(model.jnt_limited[number])
-        strong = bool(model.jnt_actfrclimited[number])
+        strong = bool(model.jnt_actfrclimited[number]) and float(model.jnt_actfrcrange[number][1]) < UNLIMITED
         return JointFacts(
             int(model.jnt_type[number]),
             tuple(map(float, model.jnt_range[number])) if limited else (),
