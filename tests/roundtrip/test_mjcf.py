@@ -149,3 +149,10 @@ def test_a_body_without_mass_comes_back_from_urdf() -> None:
     there = convert(arm, to="urdf")
     assert there.diagnostics == ()
     assert '<body name="tip" pos="0 0 1"/>' in convert(there.text.encode(), to="mjcf").text
+
+
+def test_elements_outside_of_all_sections_come_back_from_sdf() -> None:
+    fragment = b'<mujoco><body name="arm"><geom size="0.1"/></body><body name="hand"/></mujoco>'
+    back = convert(convert(fragment, to="sdf").text.encode(), to="mjcf").text
+    assert '<body name="arm">' in back
+    assert '<body name="hand"/>' in back

@@ -2,7 +2,7 @@
 
 from collections import Counter, defaultdict
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import replace
+from dataclasses import field, replace
 from functools import partial
 from pathlib import Path
 from typing import NamedTuple, Unpack
@@ -164,8 +164,10 @@ class Robots:
     by_name: dict[str, ComparedRobot]
     around: dict[str, WorldSurroundings]
     origins: Mapping[str, LineOrigins]
-    files: Mapping[Path, str]
+    files: Mapping[Path, str] = field(default_factory=dict[Path, str])
     """The files that its relative paths lead to, with what it calls each."""
+    of_mjcf: bool = False
+    """Whether it is MJCF, so that what only MJCF says was read of it and is not carried along."""
 
 
 class Known(NamedTuple):
@@ -213,16 +215,16 @@ def read_robots(
         raise loaded.error()
     sink = DiagnosticSink(loaded.path, load_options.strict, origins=dict(loaded.origins))
     assets = LocalAssets(load_options.search, Path(loaded.path))
-    files = relative_files(document, assets)
-    document = named_alike(document, assets, known.files if known else {})
+    files = {**relative_files(document, assets), **(known.files if known else {})}
+    document = named_alike(document, assets, files)
     read_before: dict[int, Robots] = {}
     found: dict[ComparingReader, Robots] = {}
     memos = defaultdict[str | None, Memo](Memo)
-    for reader, seen in as_read_by(document, readers).items():
+    for reader, seen in as_read_by(document, readers, of_mjcf=loaded.is_mjcf).items():
         if id(seen) not in read_before:
             build = partial(_build_once, memos, alike, reader, of_usd)
             robots = _robots_seen(loaded, seen, model, build, sink, assets)
-            read_before[id(seen)] = replace(robots, files=files)
+            read_before[id(seen)] = replace(robots, files=files, of_mjcf=loaded.is_mjcf)
         found[reader] = read_before[id(seen)]
     return found
 
@@ -271,7 +273,7 @@ def _robots_seen(
         error.report(sink)
     if sink.has_errors:
         raise CompileError(tuple(sink.diagnostics))
-    return Robots(loaded.path, document.format, robots, around, loaded.origins, {})
+    return Robots(loaded.path, document.format, robots, around, loaded.origins)
 
 
 def _select_robots(
@@ -427,7 +429,8 @@ def _compare_for_readers(
 
 def _compare_for_reader(a: Robots, b: Robots, tolerance: float, memos: Mapping[str, Memo]) -> Iterator[Difference]:
     """Yield the differences that one reader sees; `memos` have the last results for each pair of robots."""
-    terms = Terms(a.path, b.path, a.format, b.format, tolerance, {**a.origins, **b.origins})
+    of_mjcf = a.of_mjcf and b.of_mjcf
+    terms = Terms(a.path, b.path, a.format, b.format, tolerance, {**a.origins, **b.origins}, of_mjcf)
     yield from compare_surroundings(a.around, b.around, terms)
     if len(a.by_name) == len(b.by_name) == 1:
         (one,), (other,) = a.by_name.values(), b.by_name.values()

@@ -141,7 +141,8 @@ class ComparedSubject:
 class Terms:
     """The names and formats of the compared files, and the tolerance.
 
-    `origins` tell where lines of expanded texts were written, by the names of the files.
+    `origins` tell where lines of expanded texts were written, by the names of the files. What only MJCF says is
+    compared where both files are `of_mjcf`: elsewhere it travels along, and what was edited beside it wins.
     """
 
     a: str
@@ -150,6 +151,7 @@ class Terms:
     format_b: Format
     tolerance: float
     origins: Mapping[str, LineOrigins] = field(default_factory=dict[str, LineOrigins])
+    of_mjcf: bool = False
 
     def place(self, source: Source | None) -> Location:
         """Return where the author of a file has written what was read at a place."""
@@ -249,6 +251,8 @@ class ComparisonFindings:
         """
         before = len(self.items)
         a, b = pair
+        if (one := a or b) is not None and one.only is Format.MJCF and not self.terms.of_mjcf:
+            return False
         if a is not None and b is not None:
             self.compare_values(subject, aspect, a.value, b.value, (a.where, b.where), base)
         elif (one := a or b) is not None:
@@ -259,8 +263,8 @@ class ComparisonFindings:
         self, subject: ComparedSubject, aspect: str, one: Leaf, places: Places, *, in_a: bool
     ) -> None:
         if one.default is None:
-            what = show(one.value)
-            self.add_one_sided(subject, aspect, what, one.where, in_a=in_a, only=one.only, carried=one.carried)
+            what, only = show(one.value), None if one.only is Format.MJCF else one.only  # which both files are
+            self.add_one_sided(subject, aspect, what, one.where, in_a=in_a, only=only, carried=one.carried)
         elif in_a:
             self.compare_values(subject, aspect, one.value, one.default, (one.where, places[1]))
         else:

@@ -13,9 +13,9 @@ from twinform.compiler.compare.compared_robot import Leaf
 from twinform.compiler.compare.compared_values import Flag, Numbers, PoseValue, Text, Value, typed_value
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Source
-from twinform.ir import Pose
+from twinform.ir import Format, Pose
 from twinform.ir.transform import Transform
-from twinform.passes.carriers.carriers import NAMESPACE, SECOND, from_xml
+from twinform.passes.carriers.carriers import KEPT, NAMESPACE, SECOND, from_xml
 from twinform.passes.sdf_versions.name_the_nameless import plugin_stem
 from twinform.passes.shared.gazebo_tags import SCRIPT_URI
 from twinform.passes.shared.poses import read_pose
@@ -60,6 +60,25 @@ class LeafWalk:
             row = rows.get(str(child.tag))
             if f"{path}{child.tag}" not in self.skipped and (row is None or row.reference not in _WITHOUT_MEANING):
                 self._child(child, row, here, f"{path}{key}", carried=carried)
+        for kept in element.iterchildren(KEPT):
+            seen = dict[str, int]()
+            for _, child in _keyed(kept, {}):
+                name, tag = child.get("name"), str(child.tag)
+                key = numbered(f"{tag}[{name}]" if name else tag, seen)
+                self._enter_kept(child, table("mjcf").definitions.get(tag), f"{path}{key}")
+
+    def _enter_kept(self, element: XmlElement, fact: Fact | None, path: str) -> None:
+        """Collect the values that only MJCF says of a node, `fact` being what its table says of the element."""
+        rows = _rows(fact) if fact else {}
+        for name, text in element.items():
+            row = rows.get(f"@{name}")
+            default = _untyped_value(row.default) if row is not None and row.default else None
+            self._put(f"{path}/@{name}", _untyped_value(str(text)), default, only=Format.MJCF)
+        for key, child in _keyed(element, rows):
+            row, inner = rows.get(str(child.tag)), f"{path}/{key}"
+            if row is not None and row.repeats:
+                self._put(inner, THERE, None, only=Format.MJCF)
+            self._enter_kept(child, table("mjcf").resolve(row) if row else None, inner)
 
     def enter_free(self, element: XmlElement, path: str, *, carried: bool = False, fact: Fact | None = None) -> None:
         """Collect the values of content that SDF's table does not describe; `fact` is its row in URDF's table."""
@@ -123,9 +142,12 @@ class LeafWalk:
         if row.repeats:
             self.found.pop(f"{path}/@name", None)  # it is in the path
 
-    def _put(self, path: str, value: Value, default: Value | None, *, carried: bool) -> None:
+    def _put(
+        self, path: str, value: Value, default: Value | None, *, carried: bool = False, only: Format | None = None
+    ) -> None:
         """Add a leaf, unless its path has one: the first of two elements counts."""
-        self.found.setdefault(in_usual_namespaces(path), Leaf(value, default, self.where(path), carried=carried))
+        leaf = Leaf(value, default, self.where(path), carried=carried, only=only)
+        self.found.setdefault(in_usual_namespaces(path), leaf)
 
 
 def _own_keys(element: XmlElement) -> list[str]:

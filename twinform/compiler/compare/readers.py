@@ -11,8 +11,14 @@ from typing import Any, TypeVar
 
 from twinform.compiler.compare.comparison import Difference, DifferenceSeverity
 from twinform.diagnostics import DiagnosticSink
-from twinform.ir import Document
-from twinform.passes.carriers.carriers import without_bodies_for_gazebo, without_ours
+from twinform.ir import Document, Opaque
+from twinform.passes.carriers.carriers import (
+    is_carrier,
+    is_ours,
+    without_bodies_for_gazebo,
+    without_ours,
+    without_parts,
+)
 from twinform.passes.sdf_versions.replace_shapes import fold_capsules
 
 
@@ -27,20 +33,30 @@ class ComparingReader(StrEnum):
 _ALONE = {ComparingReader.GAZEBO: "only Gazebo and twinform read", ComparingReader.TWINFORM: "only twinform reads"}
 
 
-def as_read_by(document: Document, readers: Iterable[ComparingReader]) -> dict[ComparingReader, Document]:
-    """Return the document without the parts that each reader skips; readers that see the same share one object."""
+def as_read_by(
+    document: Document, readers: Iterable[ComparingReader], *, of_mjcf: bool = False
+) -> dict[ComparingReader, Document]:
+    """Return the document without the parts that each reader skips; readers that see the same share one object.
+
+    What only MJCF says is a carrier elsewhere, and in a file `of_mjcf` it is there for all readers.
+    """
     if (wanted := [*readers]) == [ComparingReader.TWINFORM]:
         return {ComparingReader.TWINFORM: document}
     # A plane that a URDF holds in a carrier is there for twinform alone: RViz, Drake and MuJoCo
     # see no collision. What a reader skips is taken away here, before anything is compared. The
     # parts of a capsule are what the capsule is, for everybody.
-    bare = without_ours(fold_capsules(document, DiagnosticSink()))
+    folded = fold_capsules(document, DiagnosticSink())
+    bare = without_parts(folded, _is_ours_in_mjcf) if of_mjcf else without_ours(folded)
     seen = {
         ComparingReader.ANY: without_bodies_for_gazebo(bare),
         ComparingReader.GAZEBO: bare,
         ComparingReader.TWINFORM: document,
     }
     return {reader: seen[reader] for reader in wanted}
+
+
+def _is_ours_in_mjcf(part: Opaque) -> bool:
+    return is_ours(part) and not is_carrier(part, "mjcf")
 
 
 def reconcile(

@@ -29,7 +29,7 @@ from twinform.compiler.resolve_uris import LocalAssets
 from twinform.ir import Document, Element, Format, Frame, Joint, Light, Link, Model, World
 from twinform.passes.carriers.annotations import MADE_NAME, WORLDBODY, annotation, with_annotation
 from twinform.passes.carriers.carriers import NAMESPACE, PREFIX
-from twinform.passes.legalise.to_mjcf.kept_mjcf import ROOT
+from twinform.passes.legalise.to_mjcf.kept_mjcf import KNOWN, ROOT
 from twinform.passes.shared.mesh_solids import Meshes
 from twinform.passes.shared.nodes import reserve_name
 from twinform.schemas import DEFAULT_SDF_VERSION, Context, XmlElement
@@ -191,7 +191,7 @@ class FileLowering:
         """Return what no node says of the sections and is about one tree alone."""
         left = {} if number and not self.is_world else {ROOT: [_MARK]}
         for tag in self.sections.tags:
-            if tag in {WORLDBODY, "asset", "compiler", "option", "default"}:
+            if tag not in KNOWN or tag in {WORLDBODY, "asset", "compiler", "option", "default"}:
                 continue
             for piece in self.owners.about(number, tag):
                 if not piece.is_settled:
@@ -208,6 +208,9 @@ class FileLowering:
         for section in self.sections.all:
             if section.tag == WORLDBODY:
                 section.is_settled = True
+                continue
+            if section.tag not in KNOWN:
+                left.setdefault(section.tag, []).append(self.keeper.whole(section))
                 continue
             own = self.keeper.rest_element(section, with_inside=False)
             if own.attributes:

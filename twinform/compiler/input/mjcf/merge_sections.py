@@ -1,12 +1,9 @@
 """Merges the sections of MJCF that a file writes more than once, as included files do."""
 
-from twinform.passes.legalise.to_mjcf.kept_mjcf import SINGLE
+from twinform.passes.legalise.to_mjcf.kept_mjcf import KNOWN, ROOT, SINGLE
 from twinform.schemas import XmlElement
 
-_LISTS = frozenset({
-    "extension", "custom", "asset", "worldbody", "contact", "deformable", "equality", "tendon", "actuator", "sensor",
-    "keyframe",
-})  # fmt: skip
+_LISTS = KNOWN - SINGLE - {"default", ROOT}
 """Sections whose elements add up."""
 
 

@@ -19,6 +19,7 @@ from twinform.ir.rewrite import walk
 from twinform.passes.carriers.annotations import find_annotation
 from twinform.passes.carriers.carriers import NAMESPACE, without_ours
 from twinform.passes.legalise.changed_names import NAME
+from twinform.passes.legalise.to_mjcf.kept_mjcf import KNOWN
 from twinform.schemas import XmlElement
 
 MJCF = "mjcf"
@@ -150,10 +151,10 @@ def in_sections(sections: Mapping[str, Iterable[Element]]) -> tuple[Opaque, ...]
 
 
 def _joined(sections: Iterable[Element]) -> tuple[Element, ...]:
-    """Join sections of one name that have no attributes of their own."""
-    alike: dict[str, list[Element]] = {}
-    for each in sections:
-        alike.setdefault(each.name, []).append(each)
+    """Join what belongs to one section; what is none of MJCF stays as it is."""
+    alike: dict[str | int, list[Element]] = {}
+    for place, each in enumerate(sections):
+        alike.setdefault(each.name if each.name in KNOWN else place, []).append(each)
     return tuple(found[0] if len(found) == 1 else _join(found) for found in alike.values())
 
 

@@ -20,8 +20,17 @@ ROOT = "mujoco"
 _FORCE = ("actuatorfrclimited", "actuatorfrcrange")
 _POLYNOMIALS = ("damping", "stiffness")
 """Coefficients of which SDF says the first."""
+# MuJoCo takes them in any order; this is the one of its documentation, with our texts behind what people read.
+SECTIONS = (
+    "option", "size", "visual", "statistic", "default", "extension", "asset", "worldbody", "contact", "deformable",
+    "equality", "tendon", "actuator", "sensor", "keyframe", "custom",
+)  # fmt: skip
+NO_SECTION = ""
+"""The key of elements that stand beside the sections, where MuJoCo knows none: of a file to include, or a mistake."""
 SINGLE = frozenset({"compiler", "option", "size", "visual", "statistic"})
 """Sections that are one element with attributes: what is added to them is merged."""
+KNOWN = SINGLE.union(SECTIONS, (ROOT,))
+"""The root and all of its sections; MuJoCo refuses others."""
 
 
 def kept_elements(node: Node) -> Sequence[Element]:

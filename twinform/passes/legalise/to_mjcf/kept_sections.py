@@ -11,7 +11,7 @@ from twinform.ir import Element, Model, World
 from twinform.ir.frames import WORLD
 from twinform.ir.scopes import SCOPE
 from twinform.passes.legalise.to_mjcf.assets import file_path
-from twinform.passes.legalise.to_mjcf.kept_mjcf import SINGLE, kept_elements, merged
+from twinform.passes.legalise.to_mjcf.kept_mjcf import KNOWN, NO_SECTION, SINGLE, kept_elements, merged
 from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext
 from twinform.passes.shared.document_uris import FILES_OF_MJCF
 from twinform.schemas.facts import named_kinds
@@ -60,6 +60,9 @@ def add_kept_sections(context: MjcfContext) -> None:
         for kept in kept_elements(each):
             if kept.name in SINGLE:
                 context.add(kept.name, kept)
+                continue
+            if kept.name not in KNOWN:
+                context.add(NO_SECTION, kept)
                 continue
             for part in kept.children:
                 renamed = _renamed(part, names, scope)

@@ -13,7 +13,7 @@ from twinform.passes.legalise.to_mjcf.bodies import body_elements
 from twinform.passes.legalise.to_mjcf.contacts import add_contacts
 from twinform.passes.legalise.to_mjcf.elements import make_element
 from twinform.passes.legalise.to_mjcf.equalities import add_equalities
-from twinform.passes.legalise.to_mjcf.kept_mjcf import SINGLE
+from twinform.passes.legalise.to_mjcf.kept_mjcf import NO_SECTION, SECTIONS, SINGLE
 from twinform.passes.legalise.to_mjcf.kept_sections import add_kept_sections
 from twinform.passes.legalise.to_mjcf.lights import world_lights
 from twinform.passes.legalise.to_mjcf.made_names import remove_made_names
@@ -34,11 +34,6 @@ _COMPILER = make_element(
         ("inertiafromgeom", "false"),
     ],
 )
-# MuJoCo takes them in any order; this is the one of its documentation, with our texts behind what people read.
-_SECTIONS = (
-    "option", "size", "visual", "statistic", "default", "extension", "asset", "worldbody", "contact", "deformable",
-    "equality", "tendon", "actuator", "sensor", "keyframe", "custom",
-)  # fmt: skip
 _LACKS = frozenset({"cone", "polyline", "image"})
 """The kinds of shapes for which a mesh stands, where there can be one."""
 
@@ -129,13 +124,13 @@ def _write_sections(context: MjcfContext) -> None:
 def _in_order(context: MjcfContext) -> list[Element]:
     """The sections that have anything, in their order."""
     found = [_merged([_COMPILER, *context.sections.get("compiler", ())])]
-    for name in _SECTIONS:
+    for name in SECTIONS:
         elements = context.sections.get(name, [])
         if elements:
             found.append(_merged(elements) if name in SINGLE else make_element(name, (), elements))
         elif name == "worldbody":
             found.append(make_element(name))
-    return found
+    return [*found, *context.sections.get(NO_SECTION, ())]
 
 
 def _merged(elements: list[Element]) -> Element:
