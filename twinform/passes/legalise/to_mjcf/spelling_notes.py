@@ -63,7 +63,7 @@ class SpellingNotes:
             **dict.fromkeys(_POSED, lambda _: ()),
             Document: self._provenance,
             Visual: self._on_visual,
-            Collision: self._on_shape,
+            Collision: self.on_shape,
             Inertial: _on_inertial,
             World: self._on_world,
             Light: self.parts,
@@ -132,7 +132,7 @@ class SpellingNotes:
 
     def _on_visual(self, visual: Visual) -> Iterable[Opaque]:
         """As on a shape, and the elements that say how it looks, if they say it in another way than SDF."""
-        yield from self._on_shape(visual)
+        yield from self.on_shape(visual)
         geom = self.file.geom(visual)
         is_of_file = visual.material is None and geom is not None and geom.get("rgba") is not None  # that of its mesh
         if is_of_file or (visual.material is not None and said_by_mjcf(visual.material) is None):
@@ -145,7 +145,7 @@ class SpellingNotes:
             digest = digest_of(look_parts(dict(geom.attributes), self.file.asset))
             yield annotation(LOOK_OF, attributes={"digest": digest})
 
-    def _on_shape(self, part: Shape) -> Iterable[Opaque]:
+    def on_shape(self, part: Shape) -> Iterable[Opaque]:
         """The file that stands for a shape; where one without a geom is in its link: in URDF only the place tells."""
         geom = self.file.geom(part)
         if geom is None:

@@ -16,12 +16,14 @@ from twinform.ir import (
     Joint,
     Link,
     Material,
+    Mesh,
     Model,
     Node,
     Opaque,
     Sensor,
     Visual,
     World,
+    walk,
 )
 from twinform.ir.frames import MODEL
 from twinform.ir.rewrite import census_of
@@ -34,7 +36,7 @@ from twinform.passes.carriers.annotations import (
     with_annotation,
 )
 from twinform.passes.carriers.carriers import NAMESPACE, bits_of_ours, is_carrier, is_ours, without_parts
-from twinform.passes.carriers.mjcf_texts import DOCUMENT, SEVERAL, bare_xml, text_element, text_name, xml_data
+from twinform.passes.carriers.mjcf_texts import DOCUMENT, SEVERAL, SHAPE_OF, bare_xml, text_element, text_name, xml_data
 from twinform.passes.carriers.partial_nodes import REST, WRITTEN, Left, is_bare, remainder
 from twinform.passes.legalise.to_mjcf.contact_plan import MASKS
 from twinform.passes.legalise.to_mjcf.friction import without_friction
@@ -110,7 +112,7 @@ class _Texts:
             for each in parts:
                 self.file.part = each
                 left = remainder(without_parts(each, _is_of_mjcf), self._said_beside, self._notes_beside)
-                if left is not None and is_bare(self._without_what_names(left, each)):
+                if left is not None and is_bare(self._without_what_names(left, each)) and not _tells_of_uris(left):
                     left = None
                 if each is model and self._is_model_of_several_trees:
                     left = with_annotation(left or Model.unchecked(name=model.name), SEVERAL)
@@ -174,11 +176,15 @@ class _Texts:
         return self.said(node)
 
     def _notes_beside(self, node: Node) -> tuple[Opaque, ...]:
-        """The digests of what stands for a material or a sensor, which keeps its name in the file then."""
-        if isinstance(node, Visual) and node.material is not None:
+        """What tells that a material, sensor or URI is as it was written; its part keeps its name in the file then."""
+        if isinstance(node, Visual | Collision):
+            look = self.spelling.look(node) if isinstance(node, Visual) and node.material is not None else ()
+            notes = (*look, *(self.spelling.on_shape(node) if _has_uri(node) else ()))
+            if not notes:
+                return ()
             self.context.unnamed.discard(("geom", self.file.geom_name(node) or ""))
             written = [annotation(WRITTEN, attributes={"as": each}) for each in self.file.other_names(node)]
-            return (*written, *self.spelling.look(node))
+            return (*written, *notes)
         if isinstance(node, Sensor) and self.what.left_of(node) is not None:
             parts = self.file.parts_of(node)
             self.context.unnamed.difference_update((each.name, each.get("name") or "") for each in parts)
@@ -233,6 +239,17 @@ class _Texts:
             weight = sum(1 + len(each.attrib) for each in child.iter())
             message = f"<{tag}> of {what} has no equivalent in MJCF"
             self.context.account(rules.NOT_IN_MJCF, message, node.location.at(tag), weight)
+
+
+def _has_uri(shape: Visual | Collision) -> bool:
+    """Whether a shape names its file by a scheme, such as `model://`, where MJCF has nothing but paths."""
+    found = shape.geometry.shape if shape.geometry else None
+    return isinstance(found, Mesh) and "://" in (found.uri or "")
+
+
+def _tells_of_uris(left: Node) -> bool:
+    """Whether what is left of a node has a note of a file that is named otherwise than in MJCF."""
+    return any(find_annotation(each, SHAPE_OF) is not None for each in walk(left))
 
 
 def _own_name(node: Joint) -> str:
