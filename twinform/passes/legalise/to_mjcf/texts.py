@@ -25,7 +25,7 @@ from twinform.ir import (
     World,
     walk,
 )
-from twinform.ir.frames import MODEL
+from twinform.ir.frames import MODEL, WORLD
 from twinform.ir.rewrite import census_of
 from twinform.ir.scopes import SCOPE
 from twinform.passes.carriers.annotations import (
@@ -117,7 +117,7 @@ class _Texts:
                 if each is model and self._is_model_of_several_trees:
                     left = with_annotation(left or Model.unchecked(name=model.name), SEVERAL)
                 if left is not None:
-                    name = next(iter(self.file.other_names(each)), each.name)
+                    name = next((other for other in self.file.other_names(each) if other != WORLD), each.name)
                     # Of a fixed joint the file has no name that an edit could have changed.
                     own = _own_name(each) if isinstance(each, Joint) and each.type == "fixed" else name
                     self._add_text(kind, name, left.copy(name=own), each)
