@@ -104,6 +104,7 @@ class GeomLowering(NamedTuple):
 
     def _visual(self, one: _Named) -> Visual:
         """Return the visual of a geom; of one that touches too, the collision holds the remainder."""
+        self._report_bright(one.geom)
         material, pose = lower_material(one.geom, self.assets), one.pose  # before what is left of the geom
         if one.touches:
             rest = (annotation(SAME_GEOM),)
@@ -119,6 +120,12 @@ class GeomLowering(NamedTuple):
             opaque=(*one.marks, *rest),
             source=one.geom.source,
         )
+
+    def _report_bright(self, geom: Piece) -> None:
+        """Enter a color beyond white, or below black, into the ledger: MuJoCo takes it, and SDF has none."""
+        if not all(0.0 <= each <= 1.0 for each in geom.peek_numbers("rgba") or ()):
+            message = f"color {geom.peek('rgba')} of geom {geom.name or ''!r} is cut to what SDF has, 0 to 1"
+            self.keeper.approximate(message, geom.location.at("@rgba"))
 
     def _collision(self, one: _Named) -> Collision:
         return Collision.unchecked(
