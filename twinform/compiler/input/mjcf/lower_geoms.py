@@ -124,7 +124,7 @@ class GeomLowering(NamedTuple):
     def _report_bright(self, geom: Piece) -> None:
         """Enter a color beyond white, or below black, into the ledger: MuJoCo takes it, and SDF has none."""
         if not all(0.0 <= each <= 1.0 for each in geom.peek_numbers("rgba") or ()):
-            message = f"color {geom.peek('rgba')} of geom {geom.name or ''!r} is cut to what SDF has, 0 to 1"
+            message = f"the color {geom.peek('rgba')} is cut to what SDF has, 0 to 1"
             self.keeper.approximate(message, geom.location.at("@rgba"))
 
     def _collision(self, one: _Named) -> Collision:
