@@ -323,10 +323,11 @@ def _is_of_mjcf(part: Opaque) -> bool:
 
 
 def _without_kept(node: Node) -> Node:
-    """The node without what only MJCF has: it stands in the elements of MJCF."""
+    """The node without what only MJCF has, which stands in its elements; lights come back as a whole, with theirs."""
     if not census_of(node) & bits_of_ours("mjcf"):
         return node
-    return without_parts(node, partial(is_carrier, dialect="mjcf"))
+    bare = without_parts(node, partial(is_carrier, dialect="mjcf"))
+    return bare.copy(lights=node.lights) if isinstance(node, Link | World) else bare
 
 
 def _is_rest(xml: XmlElement) -> bool:
