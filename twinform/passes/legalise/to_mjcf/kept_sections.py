@@ -22,6 +22,8 @@ _BY_TYPE: Mapping[str, str] = {"objname": "objtype", "refname": "reftype"}
 """Attributes that name a part whose kind stands in another one."""
 
 
+_MAKERS = frozenset({"composite", "flexcomp"})
+"""Elements of which MuJoCo makes bodies with names of its own."""
 _ABOUT_PARTS = frozenset({"actuator", "contact", "equality", "sensor"})
 """Sections whose elements are about what they name, and are nothing without that."""
 
@@ -54,9 +56,13 @@ def add_kept_sections(context: MjcfContext) -> None:
     """Add what the holder and all models in it keep. All other sections are complete."""
     inner = [(scope, each) for scope, each in context.models if each is not context.holder]
     names, sections = _Names(context), _Sections(context)
-    written = (part for body in context.sections.get("worldbody", ()) for part in body.walk())
-    there = {("joint" if part.name == "freejoint" else part.name, part.get("name")) for part in written}
-    for scope, each in (("", context.holder), *inner):
+    holders = (("", context.holder), *inner)
+    kept_scene = (kept for _, each in holders for kept in kept_elements(each) if kept.name == "worldbody")
+    scene = (*context.sections.get("worldbody", ()), *kept_scene)
+    parts = [part for element in scene for part in element.walk()]
+    there = {("joint" if part.name == "freejoint" else part.name, part.get("name")) for part in parts}
+    makes_others = any(part.name in _MAKERS for part in parts)
+    for scope, each in holders:
         for kept in kept_elements(each):
             if kept.name in SINGLE:
                 context.add(kept.name, kept)
@@ -66,7 +72,7 @@ def add_kept_sections(context: MjcfContext) -> None:
                 continue
             for part in kept.children:
                 renamed = _renamed(part, names, scope)
-                if kept.name in _ABOUT_PARTS and (gone := _gone(renamed, there)):
+                if kept.name in _ABOUT_PARTS and not makes_others and (gone := _gone(renamed, there)):
                     _report_stale(context, renamed, gone, each)
                     continue
                 sections.add(kept.name, _with_paths(context, renamed) if kept.name == "asset" else renamed)
