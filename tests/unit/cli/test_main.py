@@ -81,7 +81,7 @@ _UNUSED = {
         "twinform.storage",
     ],
     "convert": [
-        "twinform.passes.legalise.to_urdf.sequence",
+        "twinform.passes.legalise.to_urdf",
         "twinform.passes.framework.options_model",
         "twinform.compiler.expand_includes",
         "twinform.compiler.audit",

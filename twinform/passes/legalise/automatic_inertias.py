@@ -14,7 +14,7 @@ from twinform.passes.carriers.absorb import CarrierError, absorb
 from twinform.passes.carriers.annotations import find_annotation, without_annotation
 from twinform.passes.carriers.carriers import is_carrier, unpack
 from twinform.passes.framework.pass_base import AssetPass, ModelPass
-from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
+from twinform.passes.legalise.to_urdf_pass import ToUrdfPass, UrdfKeeper
 from twinform.passes.shared.link_shapes import COMPUTED_MASS, NoSolidError, automatic, map_automatic, written_out
 from twinform.passes.shared.mesh_solids import Meshes
 from twinform.schemas import parse_version

@@ -45,7 +45,7 @@ from twinform.passes.carriers.annotations import (
 )
 from twinform.passes.carriers.carriers import Keeper
 from twinform.passes.framework.pass_base import ModelPass
-from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
+from twinform.passes.legalise.to_urdf_pass import ToUrdfPass, UrdfKeeper
 from twinform.passes.shared.nodes import reserve_name
 from twinform.passes.shared.poses import NESTED
 from twinform.passes.structure.rename_parts import Part, follow_references, rename_model, scope_of

@@ -35,7 +35,7 @@ from twinform.passes.carriers.carriers import Keeper, carry, is_ours, pack, to_e
 from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.legalise.joint_notation import without_reversals
 from twinform.passes.legalise.shape_names import name_all
-from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
+from twinform.passes.legalise.to_urdf_pass import ToUrdfPass, UrdfKeeper
 from twinform.passes.shared.gazebo_tags import FLAGS, flag_tags
 from twinform.passes.shared.nodes import reserve_name
 from twinform.passes.shared.poses import FRAME, LINK, POSE, pose_attributes

@@ -20,7 +20,7 @@ from twinform.passes.carriers.carriers import to_element
 from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.legalise.changed_names import scoped_name, scopes_in
 from twinform.passes.legalise.frame_links import frame_as_before
-from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
+from twinform.passes.legalise.to_urdf_pass import ToUrdfPass, UrdfKeeper
 from twinform.passes.shared.poses import FRAME, NESTED
 
 _CLOSE = 1e-9

@@ -9,8 +9,8 @@ from twinform.ir.defaults import multiplier
 from twinform.ir.frames import FrameError, FrameGraph
 from twinform.passes.carriers.annotations import find_annotation, with_annotation, without_annotation
 from twinform.passes.framework.pass_base import ModelPass
-from twinform.passes.legalise.to_urdf.build_tree import cut_joints
-from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
+from twinform.passes.legalise.cut_joints import cut_joints
+from twinform.passes.legalise.to_urdf_pass import ToUrdfPass, UrdfKeeper
 from twinform.passes.shared.joint_ends import GEARED, Relation, UngearedError, relation
 
 

@@ -19,7 +19,7 @@ from twinform.passes.carriers.annotations import (
     without_annotation,
 )
 from twinform.passes.framework.pass_base import ModelPass
-from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
+from twinform.passes.legalise.to_urdf_pass import ToUrdfPass, UrdfKeeper
 from twinform.passes.shared.joint_ends import ENDS, named_ends, report_self_joint, resolve_ends
 from twinform.passes.structure.reversal import REVERSIBLE, reroot_sdf
 

@@ -15,7 +15,7 @@ from twinform.passes.carriers.annotations import find_annotation, with_annotatio
 from twinform.passes.carriers.carriers import NAMESPACE, to_element
 from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.legalise.changed_names import Names, renamed, with_old_names
-from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
+from twinform.passes.legalise.to_urdf_pass import ToUrdfPass, UrdfKeeper
 from twinform.passes.sdf_versions.nest_models import nest
 from twinform.passes.shared.flattening import (
     differing_rests,

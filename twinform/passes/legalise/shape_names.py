@@ -13,7 +13,7 @@ from twinform.passes.carriers.carriers import Keeper
 from twinform.passes.carriers.lumped_names import Followed, followed, mentions_collisions
 from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.legalise.changed_names import NAME
-from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
+from twinform.passes.legalise.to_urdf_pass import ToUrdfPass, UrdfKeeper
 from twinform.passes.shared.replaced_shapes import CAPSULE_END
 from twinform.passes.structure.tag_shapes import AnyShape, describe_renaming, name_shapes_for_gazebo, seen_shapes
 

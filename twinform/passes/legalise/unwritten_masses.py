@@ -10,7 +10,7 @@ from twinform.passes.carriers.annotations import came_from, with_annotation
 from twinform.passes.carriers.token_mass import MOMENTS, TOKEN, TOKEN_MASS, TOKEN_MOMENT, UNSAID
 from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.legalise.frame_links import is_massless
-from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
+from twinform.passes.legalise.to_urdf_pass import ToUrdfPass, UrdfKeeper
 
 _NO_INERTIA = Inertia.unchecked(ixx=0.0, ixy=0.0, ixz=0.0, iyy=0.0, iyz=0.0, izz=0.0)
 _NONE = Inertial.unchecked(mass=0.0, inertia=_NO_INERTIA)

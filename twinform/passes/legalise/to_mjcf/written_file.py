@@ -16,7 +16,7 @@ from twinform.passes.carriers.mjcf_texts import Tagged, tagged
 from twinform.passes.legalise.joint_notation import ExpressAxes, ResolveJointEnds
 from twinform.passes.legalise.nested_models import flat_model
 from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext
-from twinform.passes.legalise.to_urdf.to_urdf_pass import UrdfKeeper
+from twinform.passes.legalise.to_urdf_pass import UrdfKeeper
 
 Shape = Visual | Collision
 _SHOWN = frozenset({"camera", "light"})

@@ -12,7 +12,7 @@ from twinform.passes.carriers.carriers import NAMESPACE, PREFIX, SECOND, has_our
 from twinform.passes.framework.pass_base import Pass
 from twinform.passes.legalise.to_urdf.map_surfaces import OF_ALL_COLLISIONS
 from twinform.passes.legalise.to_urdf.remainder import KnownFields, take_remainder, urdf_fields
-from twinform.passes.legalise.to_urdf.to_urdf_pass import UrdfKeeper
+from twinform.passes.legalise.to_urdf_pass import UrdfKeeper
 from twinform.passes.shared.poses import BODY
 from twinform.request_options import UrdfVersion
 

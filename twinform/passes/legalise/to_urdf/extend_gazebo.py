@@ -9,7 +9,7 @@ from twinform.ir import Dynamics, Element, GazeboExtension, Joint, Link, Model, 
 from twinform.ir.frames import WORLD
 from twinform.passes.carriers.annotations import is_synthesized
 from twinform.passes.carriers.carriers import SECOND, to_element
-from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
+from twinform.passes.legalise.to_urdf_pass import ToUrdfPass, UrdfKeeper
 from twinform.passes.shared.gazebo_tags import FLAGS, JOINT_TAGS, LINK_TAGS, MODEL_TAGS, flag_tags
 from twinform.schemas import format_value, table
 

@@ -12,7 +12,7 @@ from twinform.ir.transform import Transform
 from twinform.passes.carriers.annotations import SYNTHESIZED, is_synthesized, without_annotation
 from twinform.passes.carriers.carriers import is_carrier, unpack
 from twinform.passes.legalise.to_sdf.joint_types import planar_chain, planar_names
-from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
+from twinform.passes.legalise.to_urdf_pass import ToUrdfPass, UrdfKeeper
 
 AnyPart = TypeVar("AnyPart", Joint, Link)
 

@@ -20,7 +20,7 @@ from twinform.ir import (
 from twinform.ir.defaults import SIZES, filled
 from twinform.passes.carriers.annotations import find_annotation, without_annotation
 from twinform.passes.legalise.to_urdf.remainder import urdf_fields
-from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
+from twinform.passes.legalise.to_urdf_pass import ToUrdfPass, UrdfKeeper
 from twinform.passes.mesh_jobs.mesh_files import NoMeshError
 from twinform.passes.shared.document_uris import GAZEBO, MESH_SCHEME, package_uri, scheme_of
 from twinform.passes.shared.nodes import piece

@@ -10,7 +10,7 @@ from twinform.ir.defaults import UNLIMITED, multiplier
 from twinform.passes.carriers.annotations import CONTINUOUS, MIMIC, find_annotation
 from twinform.passes.legalise.drake_joints import DRAKE, DRAKE_TYPES
 from twinform.passes.legalise.to_urdf.remainder import urdf_row
-from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
+from twinform.passes.legalise.to_urdf_pass import ToUrdfPass, UrdfKeeper
 from twinform.passes.legalise.urdf_pieces import BALLS
 from twinform.passes.shared.nodes import text_piece
 from twinform.request_options import UrdfVersion

@@ -13,7 +13,7 @@ from twinform.passes.legalise.changed_names import (
     with_alpha,
 )
 from twinform.passes.legalise.to_urdf.map_geometry import urdf_uri
-from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
+from twinform.passes.legalise.to_urdf_pass import ToUrdfPass, UrdfKeeper
 from twinform.passes.shared.document_uris import TEXTURE_SCHEME
 from twinform.passes.shared.gazebo_tags import SCRIPT_URI
 from twinform.passes.shared.nodes import reserve_name

@@ -6,7 +6,7 @@ from twinform.diagnostics.rules import UNSHARED_SURFACE
 from twinform.ir import Collision, Element, GazeboExtension, Link, Model, Surface
 from twinform.ir.record import field_values
 from twinform.passes.carriers.carriers import to_element
-from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
+from twinform.passes.legalise.to_urdf_pass import ToUrdfPass, UrdfKeeper
 from twinform.schemas import format_value
 
 _TAGS = {

@@ -9,7 +9,7 @@ from twinform.ir.frames import MODEL, WORLD, FrameError, FrameGraph
 from twinform.passes.carriers.annotations import EXTENSION, find_annotation, without_annotation
 from twinform.passes.carriers.carriers import carry
 from twinform.passes.legalise.to_sdf.joint_types import FLOATING
-from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
+from twinform.passes.legalise.to_urdf_pass import ToUrdfPass, UrdfKeeper
 from twinform.passes.shared.poses import LINK
 
 Placed = TypeVar("Placed", Visual, Collision, Sensor, Light)

@@ -22,7 +22,7 @@ from twinform.passes.carriers.joint_chains import (
 )
 from twinform.passes.carriers.token_mass import CHAIN_MASS, CHAIN_TOKEN
 from twinform.passes.legalise.drake_joints import fit_for_drake
-from twinform.passes.legalise.to_urdf.to_urdf_pass import ToUrdfPass, UrdfKeeper
+from twinform.passes.legalise.to_urdf_pass import ToUrdfPass, UrdfKeeper
 from twinform.passes.legalise.urdf_pieces import BALLS
 from twinform.passes.shared.nodes import reserve_name, text_piece
 from twinform.schemas import format_value
