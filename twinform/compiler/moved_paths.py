@@ -1,7 +1,6 @@
 """Rewrites the relative paths of a document for another folder, and names the files of two documents alike."""
 
 import os
-from collections.abc import Mapping
 from dataclasses import field
 from pathlib import Path
 from typing import Literal
@@ -84,27 +83,17 @@ def moved(document: Document, source: LocalAssets, folder: Path, sink: Diagnosti
     return map_uris(document, change), assets
 
 
-def relative_files(document: Document, source: LocalAssets) -> dict[Path, str]:
-    """Return the files that relative paths of a document lead to, by their real paths, with what names each first."""
-    files = dict[Path, str]()
+def named_alike(document: Document, source: LocalAssets, names: dict[Path, str]) -> Document:
+    """Return a document that calls each file as `names` do; a file that they lack comes into them, as it is called.
 
-    def note(uri: str, _kind: str, _where: Location) -> str:
-        if (file := _real_file(uri, source)) is not None:
-            files.setdefault(file, uri)
-        return uri
-
-    map_uris(document, note)
-    return files
-
-
-def named_alike(document: Document, source: LocalAssets, files: Mapping[Path, str]) -> Document:
-    """Return a document that calls each file as `files` do, where a relative path leads to one of them."""
+    Only what a relative path leads to is a file here.
+    """
 
     def change(uri: str, _kind: str, _where: Location) -> str:
         file = _real_file(uri, source)
-        return uri if file is None else files.get(file, uri)
+        return uri if file is None else names.setdefault(file, uri)
 
-    return map_uris(document, change) if files else document
+    return map_uris(document, change)
 
 
 def _real_file(uri: str, source: LocalAssets) -> Path | None:

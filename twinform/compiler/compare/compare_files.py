@@ -2,10 +2,10 @@
 
 from collections import Counter, defaultdict
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import field, replace
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import NamedTuple, Unpack
+from typing import Unpack
 
 from twinform.compiler.compare.compared_robot import ComparedRobot, Leaves, LinkPart
 from twinform.compiler.compare.comparison import (
@@ -35,7 +35,7 @@ from twinform.compiler.input.loading import (
     name_of_input,
     read,
 )
-from twinform.compiler.moved_paths import named_alike, relative_files
+from twinform.compiler.moved_paths import named_alike
 from twinform.compiler.resolve_uris import LocalAssets
 from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, LineOrigins, Source
@@ -164,19 +164,8 @@ class Robots:
     by_name: dict[str, ComparedRobot]
     around: dict[str, WorldSurroundings]
     origins: Mapping[str, LineOrigins]
-    files: Mapping[Path, str] = field(default_factory=dict[Path, str])
-    """The files that its relative paths lead to, with what it calls each."""
     of_mjcf: bool = False
     """Whether it is MJCF, so that what only MJCF says was read of it and is not carried along."""
-
-
-class Known(NamedTuple):
-    """What is known of one file when the other one is read."""
-
-    names: frozenset[str]
-    """The names of its links, joints and frames, which names of USD may stand for."""
-    files: Mapping[Path, str]
-    """The files that it names by relative paths, which another path of the other file may lead to."""
 
 
 def read_robots(
@@ -187,11 +176,13 @@ def read_robots(
     model: str | None,
     readers: Iterable[ComparingReader],
     alike: Memo,
-    known: Known | None = None,
+    files: dict[Path, str],
+    known: frozenset[str] | None = None,
 ) -> dict[ComparingReader, Robots]:
     """Read the robots of a file as each reader sees them; `model` chooses one of several.
 
-    `known` is of the other file. Readers that see the same share one object, and so do files through `alike`.
+    `known` are the names of the other file, which names of USD may stand for. Readers that see the same share one
+    object, and so do files through `alike`. `files` have one name for each file that relative paths of both lead to.
 
     Raises:
         CompileError: the file has an error, or no such model.
@@ -201,7 +192,7 @@ def read_robots(
         from twinform.compiler.usd import read_usd  # noqa: PLC0415 - few files are USD
 
         there = source if isinstance(source, bytes) else Path(str(source))
-        loaded = read_usd(there, load_options, name=name, model=model, known=known and known.names)
+        loaded = read_usd(there, load_options, name=name, model=model, known=known)
     else:
         loaded = read(source, load_options, name=name)
     if loaded.accepted and loaded.document is not None and loaded.document.format is Format.SDF:
@@ -215,7 +206,6 @@ def read_robots(
         raise loaded.error()
     sink = DiagnosticSink(loaded.path, load_options.strict, origins=dict(loaded.origins))
     assets = LocalAssets(load_options.search, Path(loaded.path))
-    files = {**relative_files(document, assets), **(known.files if known else {})}
     document = named_alike(document, assets, files)
     read_before: dict[int, Robots] = {}
     found: dict[ComparingReader, Robots] = {}
@@ -224,7 +214,7 @@ def read_robots(
         if id(seen) not in read_before:
             build = partial(_build_once, memos, alike, reader, of_usd)
             robots = _robots_seen(loaded, seen, model, build, sink, assets)
-            read_before[id(seen)] = replace(robots, files=files, of_mjcf=loaded.is_mjcf)
+            read_before[id(seen)] = replace(robots, of_mjcf=loaded.is_mjcf)
         found[reader] = read_before[id(seen)]
     return found
 
@@ -376,16 +366,23 @@ def compare_files(
     names = (names[0] or _display_name(a, "a"), names[1] or _display_name(b, "b"))
     with garbage_collection_paused():
         readers = (ComparingReader.TWINFORM,) if options.carriers else tuple(ComparingReader)
-        robots, alike = dict[int, dict[ComparingReader, Robots]](), Memo()
+        robots, alike, files = dict[int, dict[ComparingReader, Robots]](), Memo(), dict[Path, str]()
         errors: dict[int, CompileError] = {}
         inputs, known = (a, b), None
         # What names of USD may stand for is read first.
         for side in sorted(range(2), key=lambda side: is_usd(inputs[side])):
             try:
                 robots[side] = read_robots(
-                    inputs[side], load_options, name=names[side], model=model, readers=readers, alike=alike, known=known
+                    inputs[side],
+                    load_options,
+                    name=names[side],
+                    model=model,
+                    readers=readers,
+                    alike=alike,
+                    files=files,
+                    known=known,
                 )
-                known = _known_of(robots[side][readers[-1]])
+                known = _names_in(robots[side][readers[-1]])
             except CompileError as error:
                 errors[side] = error
         if errors:
@@ -397,10 +394,10 @@ def compare_files(
         return Comparison(*names, tolerance, tuple(_compare_for_readers(one, other, tolerance)))
 
 
-def _known_of(robots: Robots) -> Known:
+def _names_in(robots: Robots) -> frozenset[str]:
+    """Return the names of all links, joints and frames."""
     each = robots.by_name.values()
-    names = (name for robot in each for part in (robot.bodies, robot.joints, robot.frames) for name in part)
-    return Known(frozenset(names), robots.files)
+    return frozenset(name for robot in each for part in (robot.bodies, robot.joints, robot.frames) for name in part)
 
 
 def _display_name(source: Input | LoadResult, default: str) -> str:
