@@ -165,3 +165,21 @@ def test_what_is_kept_for_a_site_of_the_world_comes_back() -> None:
     for format_ in ("sdf", "urdf"):
         there = convert(arm, to=format_).text
         assert '<connect site1="hook" site2="tip"/>' in convert(there.encode(), to="mjcf").text
+
+
+def test_what_only_mjcf_says_of_lights_and_cameras_comes_back_twice() -> None:
+    room = b"""<mujoco model="room"><worldbody><body name="arm"><freejoint/>
+      <inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/>
+      <light name="lamp" type="spot" pos="0 0 2" exponent="3"/><camera name="eye" output="depth" resolution="64 48"/>
+    </body></worldbody></mujoco>"""
+    first = convert(convert(room, to="sdf").text.encode(), to="mjcf").text
+    second = convert(convert(first.encode(), to="sdf").text.encode(), to="mjcf").text
+    assert first == second
+    assert 'exponent="3"' in second
+    assert 'output="depth"' in second
+
+
+def test_a_terrain_that_is_seen_and_touched_needs_no_text() -> None:
+    ground = b"""<mujoco model="ground"><asset><hfield name="hills" file="hills.png" size="1 1 0.1 0.1"/></asset>
+      <worldbody><geom name="hills" type="hfield" hfield="hills"/></worldbody></mujoco>"""
+    assert "<custom>" not in convert(convert(ground, to="sdf").text.encode(), to="mjcf").text

@@ -1,9 +1,10 @@
 """Friction of collisions: the sliding, torsional and rolling coefficients of MJCF, and what SDF has for each of them.
 
 In SDF, as ODE has it, a contact resists turning on the spot by the torque 3 pi / 16 a mu N, where a is the radius of
-the contact, mu the torsional coefficient and N the normal force: so Hertz has it for a sphere. MuJoCo has one length
-for all but N. Where SDF asks for the radius of the surface instead, a depends on how deep it is pressed in, and no
-length says that. Rolling has a length in both, in SDF as a word of Bullet.
+the contact, mu the torsional coefficient and N the normal force: so Hertz has it for a sphere, and Gazebo Classic's
+tutorial on torsional friction for a contact. MuJoCo has one length for all but N. Where SDF asks for the radius of the
+surface instead, a depends on how deep it is pressed in, and no length says that. Rolling has a length in both, in SDF
+as a word of Bullet.
 
 Of two coefficients of friction the lesser one counts in SDF; in MJCF it is the greater one, or that of the geom with
 the higher priority.

@@ -74,8 +74,9 @@ def geom_elements(context: MjcfContext, body: Body) -> list[Element]:
                 more = [*more, *_group(context, collision, _TOUCHED, hides=hides)]
             is_seen = twin is not None and id(twin) in done
             found.append(_geom(context, body, collision, shape, more, seen=twin if is_seen else None))
-            if is_seen and id(collision) in context.written_geoms:
+            if twin is not None and is_seen and id(collision) in context.written_geoms:
                 context.written_geoms[id(twin)] = context.written_geoms[id(collision)]
+                _leave_as(context, collision, twin)
     for visual in body.link.visuals:
         if id(visual) not in done and (shape := _shape_of(context, body, visual)) is not None:
             # Beside visuals in their own group, one that touches too would count as hidden.
@@ -87,6 +88,13 @@ def geom_elements(context: MjcfContext, body: Body) -> list[Element]:
             more = [*_UNTOUCHED, *group, *weightless, *looks]
             found.append(_geom(context, body, visual, shape, more, seen=visual))
     return found
+
+
+def _leave_as(context: MjcfContext, written: Collision, twin: Visual) -> None:
+    """Leave of the shape of a visual what was left of that of the collision whose geom stands for both."""
+    one, other = (each.geometry.shape if each.geometry else None for each in (written, twin))
+    if one is not None and other is not None and id(one) in context.left:
+        context.leave(other, context.left[id(one)][1])
 
 
 def _group(context: MjcfContext, part: Visual | Collision, group: int, *, hides: bool) -> list[tuple[str, Value]]:

@@ -6,7 +6,6 @@ of the source, and what stands beside the model or world that is written.
 """
 
 from collections.abc import Iterable
-from functools import partial
 
 from twinform.diagnostics import rules
 from twinform.ir import (
@@ -14,6 +13,7 @@ from twinform.ir import (
     Element,
     Frame,
     Joint,
+    Light,
     Link,
     Material,
     Mesh,
@@ -23,10 +23,10 @@ from twinform.ir import (
     Sensor,
     Visual,
     World,
+    rewrite,
     walk,
 )
 from twinform.ir.frames import MODEL, WORLD
-from twinform.ir.rewrite import census_of
 from twinform.ir.scopes import SCOPE
 from twinform.passes.carriers.annotations import (
     MADE_NAME,
@@ -194,11 +194,20 @@ class _Texts:
     def _add(self, kind: str, name: str, node: Node) -> None:
         """Add the text of a node, unless MJCF says all of it, and enter what it holds into the ledger."""
         self.file.part = node
-        left = remainder(_without_kept(node), self.said, self.notes)
+        left = remainder(self._without_kept(node), self.said, self.notes)
         if left is None and isinstance(node, World):  # what is a model has no world around it
             left = World.unchecked(name=node.name)
         if left is not None:
             self._add_text(kind, name, left, node)
+
+    def _without_kept(self, node: Node) -> Node:
+        """The node without what only MJCF has, which stands in its elements; what comes back as a whole keeps it."""
+        return rewrite(node, Node, self._without_own_kept, having=bits_of_ours("mjcf"))
+
+    def _without_own_kept(self, node: Node) -> Node:
+        if not node.opaque or isinstance(node, Light) or (isinstance(node, Sensor) and self.what.left_of(node)):
+            return node
+        return node.copy(opaque=tuple(part for part in node.opaque if not is_carrier(part, "mjcf")))
 
     def _add_text(self, kind: str, name: str, left: Node, node: Node) -> None:
         xml = bare_xml(left, kind)
@@ -320,14 +329,6 @@ def _is_mocap(link: Link) -> bool:
 def _is_of_mjcf(part: Opaque) -> bool:
     """Whether an untyped part says how a file of MJCF is read; what URDF has in a carrier does not."""
     return is_ours(part) and not is_carrier(part, "urdf")
-
-
-def _without_kept(node: Node) -> Node:
-    """The node without what only MJCF has, which stands in its elements; lights come back as a whole, with theirs."""
-    if not census_of(node) & bits_of_ours("mjcf"):
-        return node
-    bare = without_parts(node, partial(is_carrier, dialect="mjcf"))
-    return bare.copy(lights=node.lights) if isinstance(node, Link | World) else bare
 
 
 def _is_rest(xml: XmlElement) -> bool:
