@@ -105,7 +105,7 @@ def test_without_jobs_nothing_is_opened() -> None:
 
 
 def test_what_cannot_be_handed_over_is_said() -> None:
-    with pytest.raises(RuntimeError, match="pickle"):
+    with pytest.raises(RuntimeError, match="<lambda>"):  # each Python has its own words for it
         list(run(_divide, [lambda: 1]))  # type: ignore[list-item] - the point is that it cannot be sent
 
 
