@@ -32,6 +32,7 @@ _ACCOUNTS = (
     (r"MuJoCo has more bodies", "mjcf-only", r"<(flex|flexcomp|composite)>.* is kept as it is"),
     (r"missing: /mujoco/body", "unknown-element", r"<body> is not an element of <mujoco>"),
     (r"the (mass|inertia|bias)|massless-link", "unreadable-mesh", _MASSLESS),
+    (r"array (geom|mat)_rgba$|changed: .*/@rgba\b", "mjcf-only", r"^the color .* is cut"),
     (rf"array ({_OF_MASSES})$", "unreadable-mesh", _MASSLESS),
 )
 """What a difference may come from: patterns of it, the rule, and a pattern of the message of that finding."""
