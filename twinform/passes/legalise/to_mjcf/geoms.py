@@ -81,7 +81,7 @@ def geom_elements(context: MjcfContext, body: Body) -> list[Element]:
         if id(visual) not in done and (shape := _shape_of(context, body, visual)) is not None:
             # Beside visuals in their own group, one that touches too would count as hidden.
             group = [] if done else _group(context, visual, _SEEN, hides=hides)
-            weightless = () if context.is_of_mjcf else _WEIGHTLESS
+            weightless = () if context.is_of_mjcf or _kept(visual, "density") else _WEIGHTLESS
             looks = look_of(context, body, visual, other := parted.get(visual.name))
             if other is not None and (material := _kept(other, "material")):  # only the collision was changed
                 looks = [("material", material), *looks]
