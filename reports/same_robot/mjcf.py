@@ -17,7 +17,8 @@ meshes, so that each is a box, or left out.
 
 * **URDF** against MuJoCo's own reading of the file, with `fusestatic`, `discardvisual` and `balanceinertia` off: joints
   and their ranges, forces, damping and friction, all geoms, and at 20 random positions and velocities the poses of all
-  links and geoms, the mass matrix and the bias forces, to 1e-9.
+  links and geoms, the mass matrix and the bias forces, to 1e-9. Rotors that elements of Drake describe are given to
+  its reading: they are the armatures of joints in ours.
 * **SDF models** against Drake: ranges, damping, and at 20 positions the poses of all links to 1e-9, the mass matrix and
   the bias forces to 1e-6. Free bodies, universal, ball and screw joints are compared as well.
 * **SDF worlds** are compiled.

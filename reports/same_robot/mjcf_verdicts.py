@@ -6,7 +6,7 @@ from enum import StrEnum
 import twinform
 from testbed.corpus.files import CorpusFile, Kind
 from testbed.engines.readers.meshless import without_meshes as boxed
-from testbed.mjcf.compiled import Compiled, UnreadableError, compile_mjcf, compile_urdf, without_meshes
+from testbed.mjcf.compiled import Compiled, UnreadableError, compile_mjcf, compile_urdf, turn_rotors, without_meshes
 from testbed.mjcf.differences import differences
 from testbed.mjcf.from_drake import UncomparableError, differences_from_drake
 from twinform.testing.oracles import drake
@@ -52,6 +52,7 @@ def _urdf(file: CorpusFile) -> Outcome:
     text = boxed(file.path.read_bytes())
     try:
         source = compile_urdf(text, absent_is_nothing=False)
+        turn_rotors(text, source)
     except UnreadableError as error:
         return Outcome(file.name, URDF, Verdict.SOURCE, str(error))
     made = _written(file, URDF, text)
@@ -61,7 +62,9 @@ def _urdf(file: CorpusFile) -> Outcome:
     if not found:
         return Outcome(file.name, URDF, Verdict.SAME)
     try:
-        other = differences(compile_urdf(text, absent_is_nothing=True), made)
+        massless = compile_urdf(text, absent_is_nothing=True)
+        turn_rotors(text, massless)
+        other = differences(massless, made)
     except UnreadableError:
         other = found
     if not other:

@@ -23,6 +23,8 @@ _OFF: tuple[str, ...] = ("fusestatic", "discardvisual", "balanceinertia", "strip
 """What MuJoCo does to a URDF unless it is told not to."""
 _SIZES = {2: 1, 3: 2, 5: 2}
 """How many sizes mean something of a sphere, capsule and cylinder."""
+_OF_ROTORS = ("actuator/{*}gear_ratio", "actuator/{*}rotor_inertia")
+"""What Drake says of a motor in a transmission of URDF."""
 FREE, BALL, SLIDE, HINGE = range(4)
 """The types of joints, with MuJoCo's numbers."""
 MESH = 7
@@ -173,6 +175,17 @@ def compile_urdf(text: bytes, folder: str | None = None, *, absent_is_nothing: b
         robot.remove(own)
     etree.SubElement(etree.SubElement(robot, "mujoco"), "compiler", settings)
     return compile_mjcf(etree.tostring(robot, encoding="unicode"), folder)
+
+
+def turn_rotors(urdf: bytes, robot: Compiled) -> None:
+    """Give a compiled URDF the inertia of rotors that elements of Drake in it state, which MuJoCo's reader skips."""
+    for transmission in etree.fromstring(urdf).iterfind("transmission"):
+        joint, ratio, inertia = (transmission.find(path) for path in ("joint", *_OF_ROTORS))
+        if joint is not None and inertia is not None:
+            dof = int(robot.model.jnt_dofadr[robot.joints[str(joint.get("name"))]])
+            geared = float(1 if ratio is None else ratio.get("value", 1)) ** 2
+            robot.model.dof_armature[dof] += float(inertia.get("value", 0)) * geared
+            robot.model.dof_M0[dof] += float(inertia.get("value", 0)) * geared  # where the mass matrix never changes
 
 
 def without_meshes(text: str) -> str:
