@@ -29,3 +29,18 @@ def test_a_file_comes_home_from_sdf(case: Path) -> None:
 @pytest.mark.parametrize("case", _ROBOTS, ids=lambda case: case.stem)
 def test_a_file_comes_home_from_urdf(case: Path) -> None:
     assert _back(case, "urdf") == []
+
+
+_SLIDER = (
+    '<mujoco><compiler inertiafromgeom="false"/><worldbody><body><joint type="slide" axis="1 0 0"/>'
+    '<inertial pos="0 0 0" quat="{}" mass="{}" diaginertia="{}"/></body></worldbody></mujoco>'
+)
+
+
+def test_the_axes_of_a_slider_are_no_difference_and_its_mass_is(tmp_path: Path) -> None:
+    source = tmp_path / "slider.xml"
+    source.write_text(_SLIDER.format("1 1 0 0", "3", "2 1 2"))
+    model = mujoco.MjModel.from_xml_path(str(source))
+    turned, heavy = (came_home(mujoco, source, model, _SLIDER.format("1 0 0 0", each, "2 2 1")) for each in "34")
+    assert not [each for each in turned if each.startswith("array")]
+    assert "array body_mass" in heavy

@@ -32,7 +32,8 @@ def camera_element(
     """The camera of a `<camera>` in a sensor at a place in its body; None where no plane image is as wide."""
     wish = context.wish("camera", body.scope, _name(sensor, camera))
     name = context.name("camera", wish, sensor.location)
-    if (name or "").startswith(f"{body.written}_camera"):  # it is called after its body when it is read again
+    # A link that was renamed since would give it another name when it is read again.
+    if (sensor.name or "").startswith(f"{body.link.name}_camera"):
         context.note_made_name("camera", sensor, name)
     view = child_number(camera, "horizontal_fov", default=FIELD_OF_VIEW)
     if not 0 < view < math.pi:
