@@ -1,7 +1,7 @@
 """Edits that once did not win: every file of `tests/cases/edits` is converted, edited as its comments say, and judged.
 
 A comment `edit:` has an edit of the converted file, `refused:` one that has to be an error, and `pass:` a pipeline that
-runs on it; `mjcf:` is an edit of the file of MJCF that it becomes. Each is tried on its own.
+runs on it; `mjcf:` and `sdf:` are edits of the file of MJCF or SDF that it becomes. Each is tried on its own.
 """
 
 import re
@@ -21,7 +21,8 @@ pytestmark = pytest.mark.slow
 
 CASES = Path(__file__).parent / "cases" / "edits"
 _LANGUAGES: dict[str, Language] = {".urdf": "urdf", ".sdf": "sdf", ".mjcf": "mjcf"}
-_WISH = re.compile(r"<!-- (edit|refused|pass|mjcf): (.*?) -->")
+_OF_KINDS: dict[str, Language] = {"mjcf": "mjcf", "sdf": "sdf"}
+_WISH = re.compile(r"<!-- (edit|refused|pass|mjcf|sdf): (.*?) -->")
 
 
 def _cases() -> Iterator[object]:
@@ -34,7 +35,8 @@ def _cases() -> Iterator[object]:
 def test_an_edit_wins(path: Path, kind: str, text: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(ROOT)
     source = _LANGUAGES[path.suffix]
-    to: Language = "mjcf" if kind == "mjcf" else "sdf" if source == "urdf" else "urdf"
+    usual: Language = "sdf" if source == "urdf" else "urdf"
+    to = _OF_KINDS.get(kind, usual)
     made = twinform.convert(path, to=to).text.encode()
     before = unedited(made, source)
     if kind == "pass":

@@ -9,7 +9,7 @@ from typing import TypeVar
 from twinform.compiler.input.mjcf.carried_texts import CarriedText, nodes_of, report_stale
 from twinform.compiler.input.mjcf.joined_joints import join_joints
 from twinform.compiler.input.mjcf.one_model import one_model
-from twinform.compiler.input.mjcf.renamed_parts import renamed_parts
+from twinform.compiler.input.mjcf.renamed_parts import name_in_file, renamed_parts
 from twinform.compiler.input.mjcf.restore_contacts import kept_apart, settle_contacts
 from twinform.compiler.input.mjcf.restore_sensors import (
     restored_settings,
@@ -77,18 +77,24 @@ def _with_parts(document: Document, texts: tuple[CarriedText, ...], root: XmlEle
     others = (each.node for each in texts if each.kind not in {"link", "joint"})
     nodes = (*back.links, *back.joints, *others)
     partials = {(type(each), written_name(each)): without_annotation(each, WRITTEN, SEVERAL) for each in nodes}
-    # A fixed joint has no name in the file, and is known by its child.
-    fixed = {each.child: each for each in back.joints if each.type == "fixed"}
+    # A fixed joint has no name in the file, and is known by the body that it holds.
+    of_bodies = {each.child: each for each in back.joints if each.type == "fixed"}
 
     def merged(node: AnyPart) -> AnyPart:
         partial = partials.get((type(node), node.name))
-        if isinstance(node, Joint) and node.type == "fixed":
-            partial = fixed.get(node.child)
         if partial is None or not isinstance(partial, type(node)):
             return node
         return merging.merge(node, partial)
 
     def in_model(model: Model) -> Model:
+        bodies = ((each.name, of_bodies.get(name_in_file(each))) for each in model.links)
+        fixed = {link: partial.copy(child=link) for link, partial in bodies if partial is not None}
+
+        def merged_joint(joint: Joint) -> Joint:
+            if joint.type != "fixed":
+                return merged(joint)
+            return merging.merge(joint, fixed[joint.child]) if joint.child in fixed else joint
+
         model = without_parts_of_sensors(model, back.parts)
         told_apart = partials.get((Model, model.name))
         if isinstance(told_apart, Model) and told_apart.self_collide is False and model.self_collide:
@@ -101,7 +107,7 @@ def _with_parts(document: Document, texts: tuple[CarriedText, ...], root: XmlEle
         return replace_fields(
             merged(model),
             links=tuple(merged(each) for each in model.links),
-            joints=(*(merged(each) for each in model.joints), *holds),
+            joints=(*(merged_joint(each) for each in model.joints), *holds),
             frames=tuple(merged(each) for each in model.frames),
         )
 

@@ -29,7 +29,7 @@ def renamed_parts(model: Model, links: Sequence[Link], joints: Sequence[Joint], 
         # Several joints that stand for one are joined later, under the names that they have.
         known = {written_name(each): each.name for each in partials if len(written_names(each)) == 1}
         for node in getattr(model, field):
-            old = known.get(_written(node))
+            old = known.get(name_in_file(node))
             if old is None:
                 free.append((part, node))
             else:
@@ -39,7 +39,7 @@ def renamed_parts(model: Model, links: Sequence[Link], joints: Sequence[Joint], 
     taken = set(names.values())
     for part, node in free:
         if (part, node.name) not in names:
-            written = _written(node)
+            written = name_in_file(node)
             scope = written.rpartition(SCOPE)[0]
             wish = written if not scope or scope in scopes else node.name
             new = unique_name(wish, taken)
@@ -61,7 +61,7 @@ def renamed_parts(model: Model, links: Sequence[Link], joints: Sequence[Joint], 
     return replace_fields(whole, joints=joints)
 
 
-def _written(node: Node) -> str:
+def name_in_file(node: Node) -> str:
     """The name of a part in the file."""
     found = find_annotation(node, NAME)
     return found.text if found is not None and found.text else node.name
@@ -72,7 +72,7 @@ def _name_hidden(model: Model, partials: Sequence[Joint], names: Names) -> None:
     hidden = {each.name for each in model.links if is_synthesized(each)}
     children = {written_name(each): each.child for each in partials if each.child}
     for joint in model.joints:
-        old = children.get(_written(joint))
+        old = children.get(name_in_file(joint))
         if joint.child in hidden and old is not None:
             names["link", joint.child] = old
 

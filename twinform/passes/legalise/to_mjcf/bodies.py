@@ -126,7 +126,9 @@ class _BodyTree:
         # Of a URDF with nothing but a link `world` MJCF has the name that SDF has: the world itself has the other.
         wish = self.context.wish("body", scope_of(name), link.name if own == WORLD else own)
         written = WORLD if name == self.world else self.context.name("body", wish, link) or name
-        self.context.note_made_name("body", link, written)
+        self.context.note_made_name(
+            "body", link, written, f"{above[hold.parent].link.name}_body" if hold.parent else "body"
+        )
         self.context.written_bodies[name] = written
         moves = name not in self.context.static_links and (
             not hold.joints

@@ -32,9 +32,7 @@ def camera_element(
     """The camera of a `<camera>` in a sensor at a place in its body; None where no plane image is as wide."""
     wish = context.wish("camera", body.scope, _name(sensor, camera))
     name = context.name("camera", wish, sensor.location)
-    # A link that was renamed since would give it another name when it is read again.
-    if (sensor.name or "").startswith(f"{body.link.name}_camera"):
-        context.note_made_name("camera", sensor, name)
+    context.note_made_name("camera", sensor, name, f"{body.link.name}_camera")
     view = child_number(camera, "horizontal_fov", default=FIELD_OF_VIEW)
     if not 0 < view < math.pi:
         return None

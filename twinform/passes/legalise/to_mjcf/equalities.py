@@ -67,7 +67,7 @@ def _add(context: MjcfContext, between: JointBetween, elements: list[Element]) -
     for each in elements:
         name = context.name("equality", each.get("name"), between.joint.location) or between.name
         names.append(name)
-        context.note_made_name(each.name, between.joint, name)
+        context.note_made_name(each.name, between.joint, name, f"{each.get('body1')}_{each.get('body2')}_{each.name}")
         context.add("equality", each.copy(attributes=(("name", name), *each.attributes[1:])))
     context.written_joints[between.name] = tuple(names)
 

@@ -131,7 +131,7 @@ def _geom(
     name = context.name_in(body, "geom", source_name(part), part)
     if name is not None:
         context.written_geoms[id(part)] = name
-        context.note_made_name("geom", part, name)
+        context.note_made_name("geom", part, name, f"{body.link.name}_{part.__class__.__name__.lower()}")
     at = context.resolve(part.pose, body).compose(shape.at)
     attributes = [("name", name), *shape.attributes, *placement(at), *more]
     element = with_kept(make_element("geom", attributes, (), part.source), part)

@@ -19,7 +19,7 @@ from twinform.passes.carriers.joint_chains import CHAINS, TWO_AXES, metres_per_r
 from twinform.passes.legalise.changed_names import source_name
 from twinform.passes.legalise.to_mjcf.elements import Value, make_element, position
 from twinform.passes.legalise.to_mjcf.kept_mjcf import with_kept_joint
-from twinform.passes.legalise.to_mjcf.writing_context import Body, MjcfContext, fixed_joint_name, scope_of
+from twinform.passes.legalise.to_mjcf.writing_context import Body, MjcfContext, scope_of
 
 _KINDS: dict[JointType, str] = {
     "revolute": "hinge",
@@ -65,8 +65,7 @@ def _elements(context: MjcfContext, body: Body, between: JointBetween) -> Iterat
         return
     name = _name(context, between, context.wish("joint", scope_of(between.name), source_name(joint)))
     context.written_joints[between.name] = (name,)
-    if not joint.name.startswith(fixed_joint_name(body.link.name)):  # a hinge without a name is called otherwise
-        context.note_made_name("joint", joint, name)
+    context.note_made_name("joint", joint, name, f"{body.link.name}_joint")  # one that was fixed is called otherwise
     element = _element(context, body, between, at, joint.axis, name)
     yield with_kept_joint(element, joint)
 

@@ -25,7 +25,7 @@ _FADING = (("constant", 1.0), ("linear", 1.0), ("quadratic", 0.0))
 
 def body_lights(context: MjcfContext, body: Body) -> list[Element]:
     """The lights of a link."""
-    return [_light(context, light, context.resolve(light.pose, body)) for light in body.link.lights]
+    return [_light(context, light, context.resolve(light.pose, body), body.link.name) for light in body.link.lights]
 
 
 def world_lights(context: MjcfContext) -> list[Element]:
@@ -39,9 +39,9 @@ def world_lights(context: MjcfContext) -> list[Element]:
     ]
 
 
-def _light(context: MjcfContext, light: Light, place: Transform) -> Element:
+def _light(context: MjcfContext, light: Light, place: Transform, link: str | None = None) -> Element:
     name = context.name("light", source_name(light), light.location)
-    context.note_made_name("light", light, name)
+    context.note_made_name("light", light, name, f"{link}_light" if link else "light")
     return with_kept(make_element("light", [("name", name), *light_attributes(light, place)], (), light.source), light)
 
 

@@ -114,6 +114,8 @@ class _Texts:
                 left = remainder(without_parts(each, _is_of_mjcf), self._said_beside, self._notes_beside)
                 if left is not None and is_bare(self._without_what_names(left, each)) and not _tells_of_uris(left):
                     left = None
+                if isinstance(left, Joint):
+                    left = left.copy(child=self._body_of(left.child))
                 if each is model and self._is_model_of_several_trees:
                     left = with_annotation(left or Model.unchecked(name=model.name), SEVERAL)
                 if left is not None:
@@ -130,10 +132,16 @@ class _Texts:
 
     def _is_named_by_file(self, joint: Joint) -> bool:
         """Whether a fixed joint, which has no name in MJCF, is called as it is when the file is read."""
-        body = self.context.written_bodies.get(joint.child or "", joint.child)
+        body = self._body_of(joint.child)
+        # Where several would be called so, a number stands behind it. The link may have another name by now.
         made = find_annotation(joint, MADE_NAME)
         is_made = made is not None and made.text == _own_name(joint)
+        is_made = is_made and joint.name.startswith(fixed_joint_name(joint.child or ""))
         return is_made or is_synthesized(joint) or _own_name(joint) == fixed_joint_name(body or "")
+
+    def _body_of(self, link: str | None) -> str | None:
+        """The name of the body of a link, by which a joint without a name of its own is known."""
+        return self.context.written_bodies.get(link or "", link)
 
     def _without_what_names(self, left: Node, node: Node) -> Node:
         """What is left of a node, without what a fixed joint is known by if it is read with the name that it has."""

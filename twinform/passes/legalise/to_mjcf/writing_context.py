@@ -243,9 +243,12 @@ class MjcfContext:
         """
         return own if self.is_of_mjcf and own not in self.names.get(kind, ()) else scope + own
 
-    def note_made_name(self, kind: str, part: Node, written: str | None) -> None:
-        """Note that a part is called so here alone, if it has no name in MJCF and was not renamed since."""
-        if written is not None and self.is_of_mjcf and is_made_name(part):
+    def note_made_name(self, kind: str, part: Node, written: str | None, wish: str) -> None:
+        """Note that a part is called so here alone, if it has no name in MJCF and gets it again where that is read.
+
+        Its name was made of `wish`, which begins with the name of the part around it: neither was renamed since.
+        """
+        if written is not None and self.is_of_mjcf and is_made_name(part, wish):
             self.unnamed.add((kind, written))
 
     def name(self, kind: str, wanted: str | None, where: Location | Sourced) -> str | None:
@@ -323,10 +326,13 @@ class MjcfContext:
 _IDENTITY = Transform()
 
 
-def is_made_name(node: Node) -> bool:
-    """Whether a part has no name in the MJCF that it was read of, and was not renamed since."""
-    found = find_annotation(node, MADE_NAME)
-    return found is not None and found.text == getattr(node, "name", None)
+def is_made_name(node: Node, wish: str = "") -> bool:
+    """Whether a part has no name in the MJCF that it was read of, and was not renamed since.
+
+    With `wish` its name has to begin with that.
+    """
+    found, name = find_annotation(node, MADE_NAME), getattr(node, "name", None)
+    return found is not None and name is not None and found.text == name and name.startswith(wish)
 
 
 def fixed_joint_name(body: str) -> str:
