@@ -178,9 +178,17 @@ def _touching(model: Any) -> Iterator[tuple[str, str]]:
         if not bits and not model.geom_contype[second] & model.geom_conaffinity[first]:
             continue
         bodies = int(model.geom_bodyid[first]), int(model.geom_bodyid[second])
-        held = [int(model.body_weldid[each]) for each in bodies]
-        above = [int(model.body_weldid[model.body_parentid[each]]) for each in held]
+        if model.body_weldid[bodies[0]] == model.body_weldid[bodies[1]] or excluded & {bodies, bodies[::-1]}:
+            continue
+        held = [_held_as_one(model, each) for each in bodies]
+        above = [_held_as_one(model, int(model.body_parentid[each])) for each in held]
         # URDF and SDF say nothing of contacts between two links that a joint connects
-        is_joined = 0 not in bodies and (held[0] == above[1] or held[1] == above[0])
-        if held[0] != held[1] and not is_joined and not excluded & {bodies, bodies[::-1]}:
+        if 0 in bodies or (held[0] != above[1] and held[1] != above[0]):
             yield one, other
+
+
+def _held_as_one(model: Any, body: int) -> int:
+    """The topmost body that a body is fixed to, below the world."""
+    while body and not model.body_jntnum[body] and model.body_parentid[body]:
+        body = int(model.body_parentid[body])
+    return body

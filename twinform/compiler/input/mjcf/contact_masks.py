@@ -55,7 +55,7 @@ class ContactMasks(NamedTuple):
         Masks that SDF does not express stay with the geom.
         """
         bits = Bits.of(geom)
-        if bits.type == bits.affinity and bits.type <= _BITS:
+        if bits.type == bits.affinity and 0 <= bits.type <= _BITS:
             geom.take("contype")
             geom.take("conaffinity")
         return None if self.is_plain else (bits.type | bits.affinity) & _BITS

@@ -169,7 +169,7 @@ class _Merged:
 
     def document(self) -> Document:
         """The document as it was before it was written, with all edits since."""
-        model = self._named(one_model(self.lowered, self.root, is_free=_is_free(self.root)))
+        model = self._named(one_model(self.lowered, is_free=_is_free(self.root)))
         back = sensors_back(self.links, self.joints, self.world, self.root, self.sink)
         self.links, self.joints, self.world, self.parts = back
         model = without_parts_of_sensors(model, self.parts)

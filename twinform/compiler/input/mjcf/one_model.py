@@ -14,15 +14,14 @@ from twinform.passes.carriers.annotations import (
 )
 from twinform.passes.legalise.changed_names import NAME
 from twinform.passes.shared.nodes import reserve_name
-from twinform.schemas import XmlElement
 
 
-def one_model(document: Document, root: XmlElement, *, is_free: bool) -> Model:
+def one_model(document: Document, *, is_free: bool) -> Model:
     """The links, joints and frames of all models of a document in one, whose frame is that of the world.
 
     A static tree, and the only one unless it `is_free`, hangs from the world by a fixed joint that is annotated as
     made. All orientations are roll, pitch and yaw; a quaternion comes back where a carrier says so. Remainders that
-    are in every written file are gone, and what the geoms of the canonical tree `root` say of contacts is noted.
+    are in every written file are gone, and what geoms say of contacts is noted.
     """
     world = document.worlds[0] if document.worlds else None
     models = world.models if world else document.models
@@ -51,14 +50,13 @@ def one_model(document: Document, root: XmlElement, *, is_free: bool) -> Model:
         opaque=tuple(opaque),
         source=source,
     )
-    geoms = {each.get("name") or "": each for each in root.iter("geom")}
 
     def as_before(node: Node) -> Node:
         match node:
             case Pose():
                 return _in_rpy(node)
             case Collision():
-                return with_contacts(geoms, without_usual(node))
+                return with_contacts(without_usual(node))
             case Link():
                 return without_usual(_with_shapes_apart(node))
             case _:

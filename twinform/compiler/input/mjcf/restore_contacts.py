@@ -4,7 +4,9 @@ A file says of each geom what it touches, by bits that the writer has computed o
 again say that nobody has edited them. What was edited stays with the geom as it is.
 """
 
-from collections.abc import Mapping
+from collections import Counter
+from collections.abc import Collection
+from itertools import chain
 from typing import NamedTuple, cast
 
 from twinform.ir import Collision, Element, Link, Model, Node, Opaque, Surface, World, replace_fields, rewrite
@@ -12,16 +14,16 @@ from twinform.ir.kinematic_tree import KinematicTree
 from twinform.ir.rewrite import ANYTHING
 from twinform.ir.scopes import scoped_models
 from twinform.passes.carriers.annotations import annotation, find_annotation, without_annotation
-from twinform.passes.legalise.to_mjcf.contact_plan import ContactPlan
+from twinform.passes.legalise.to_mjcf.contact_plan import MASKS, Bits, ContactPlan, mask_of
 from twinform.passes.legalise.to_mjcf.friction import friction_of, friction_priorities
-from twinform.passes.legalise.to_mjcf.kept_mjcf import KEPT
+from twinform.passes.legalise.to_mjcf.kept_mjcf import KEPT, kept_elements
 from twinform.schemas import XmlElement
 
 _TOUCH = "touch"
 """The annotation on a collision with the numbers of its geom, while the model is put together."""
 _NUMBERS = {"contype": "1", "conaffinity": "1", "priority": "0"}
 """The attributes of a geom that the writer computes, with their defaults."""
-_MASK = "collide_bitmask"
+_MASK = MASKS[0]
 
 
 class Touch(NamedTuple):
@@ -32,15 +34,21 @@ class Touch(NamedTuple):
     priority: int
 
 
-def with_contacts(geoms: Mapping[str, XmlElement], collision: Collision) -> Collision:
+def with_contacts(collision: Collision) -> Collision:
     """The collision with an annotation of what its geom says of contacts, and without what is computed of that."""
-    geom = geoms.get(collision.name or "")
-    if geom is None:
-        return collision
-    note = annotation(_TOUCH, attributes={name: geom.get(name) or usual for name, usual in _NUMBERS.items()})
+    note = annotation(_TOUCH, attributes=_numbers_of(collision))
     surface = _without_mask(collision.surface) if collision.surface else None
     opaque = (note, *(left for part in collision.opaque if (left := _without_numbers(part)) is not None))
     return collision.copy(opaque=opaque, surface=surface)
+
+
+def _numbers_of(collision: Collision) -> dict[str, str]:
+    """What the geom of a collision says of contacts: two numbers that are alike are a mask, and others are kept."""
+    mask = mask_of(collision, _MASK)
+    alike = {} if mask is None else {"contype": str(mask), "conaffinity": str(mask)}
+    kept = {name: value for each in kept_elements(collision) if each.name == "geom" for name, value in each.attributes}
+    usual = _NUMBERS if kept.keys() & alike.keys() else {**_NUMBERS, **alike}
+    return {name: kept.get(name) or number for name, number in usual.items()}
 
 
 def _without_mask(surface: Surface) -> Surface | None:
@@ -66,29 +74,89 @@ def _bare(element: Element) -> Element | None:
 
 
 def settle_contacts(holder: Model | World) -> Model | World:
-    """The model or world with the contacts of its geoms only where they are not those that it says itself."""
-    tops = [("", holder)] if isinstance(holder, Model) else [(f"{each.name}::", each) for each in holder.models]
-    models = [found for scope, model in tops for found in scoped_models(model, scope)]
-    static = tuple(scope for scope, each in models if each.static)
-    tree = KinematicTree(holder)
-    links = frozenset(name for name in tree.links if name.startswith(static)) if static else frozenset[str]()
-    plan = ContactPlan(holder, tree, links, is_of_mjcf=False)
-    priorities = friction_priorities(each for link in tree.links.values() for each in link.collisions)
-    names = {id(link): name for name, link in tree.links.items()}
+    """The model or world with the contacts of its geoms only where they are not those that it says itself.
 
-    def settled(link: Link) -> Link:
-        own = names.get(id(link), link.name)
-        return replace_fields(link, collisions=tuple(settled_shape(own, each) for each in link.collisions))
+    Links that touch in the file, and in SDF did not, collide with their own model.
+    """
+    contacts = _HolderContacts(holder)
+    touching = contacts.touching_links()
+    return (_HolderContacts(contacts.with_self_collision(touching)) if touching else contacts).without_computed()
 
-    def settled_shape(link: str, collision: Collision) -> Collision:
-        note = find_annotation(collision, _TOUCH)
-        if note is None:
-            return collision
-        bits = plan.bits(link, collision)
-        expected = Touch(*bits, priorities[friction_of(collision)])
-        return _with_differences(without_annotation(collision, _TOUCH), note, expected)
 
-    return _excluding(rewrite(holder, Link, settled, having=ANYTHING), plan)
+class _HolderContacts:
+    """What a model or world says of contacts itself, beside what stands in the file."""
+
+    def __init__(self, holder: Model | World) -> None:
+        self.holder = holder
+        tops = [("", holder)] if isinstance(holder, Model) else [(f"{each.name}::", each) for each in holder.models]
+        models = [found for scope, model in tops for found in scoped_models(model, scope)]
+        static = tuple(scope for scope, each in models if each.static)
+        self.tree = tree = KinematicTree(holder)
+        links = frozenset(name for name in tree.links if name.startswith(static)) if static else frozenset[str]()
+        self.plan = ContactPlan(holder, tree, links, is_of_mjcf=False)
+        self.names = {id(link): name for name, link in tree.links.items()}
+
+    def touching_links(self) -> set[str]:
+        """The links that have to collide with their own model, for all to touch that does in the file."""
+        excluded = _exclusions(self.holder)
+        if excluded.issuperset(map(frozenset, self.plan.excluded)) and not any(map(self._is_edited, self.tree.links)):
+            return set()
+        bits = {name: frozenset(map(_written_bits, link.collisions)) for name, link in self.tree.links.items()}
+        pairs: list[tuple[str, str]] = [
+            (one, other)
+            for one, other in self.plan.apart
+            if frozenset((one, other)) not in excluded
+            and any(a.meets(b) for a in bits[one] if a for b in bits[other] if b)
+        ]
+        found: set[str] = set()
+        while pairs:
+            [(most, _)] = Counter(chain.from_iterable(pairs)).most_common(1)
+            found.add(most)
+            pairs = [pair for pair in pairs if most not in pair]
+        return found
+
+    def _is_edited(self, name: str) -> bool:
+        """Whether the geoms of a link have other bits than it gives them."""
+        collisions = self.tree.links[name].collisions
+        return any(_written_bits(each) not in {None, self.plan.bits(name, each)} for each in collisions)
+
+    def with_self_collision(self, names: Collection[str]) -> Model | World:
+        """The holder whose links of these names collide with their own model."""
+
+        def told(link: Link) -> Link:
+            return link.copy(self_collide=True) if self.names.get(id(link), link.name) in names else link
+
+        return rewrite(self.holder, Link, told, having=ANYTHING)
+
+    def without_computed(self) -> Model | World:
+        """The holder, whose geoms keep what it does not say of their contacts."""
+        priorities = friction_priorities(each for link in self.tree.links.values() for each in link.collisions)
+
+        def settled(link: Link) -> Link:
+            own = self.names.get(id(link), link.name)
+            return replace_fields(link, collisions=tuple(settled_shape(own, each) for each in link.collisions))
+
+        def settled_shape(link: str, collision: Collision) -> Collision:
+            note = find_annotation(collision, _TOUCH)
+            if note is None:
+                return collision
+            expected = Touch(*self.plan.bits(link, collision), priorities[friction_of(collision)])
+            return _with_differences(without_annotation(collision, _TOUCH), note, expected)
+
+        return _excluding(rewrite(self.holder, Link, settled, having=ANYTHING), self.plan)
+
+
+def _written_bits(collision: Collision) -> Bits | None:
+    """The bits of the geom of a collision in the file; None where it has none there."""
+    note = find_annotation(collision, _TOUCH)
+    return None if note is None else Bits(*(int(float(note.get(name) or "0")) for name in Bits._fields))
+
+
+def _exclusions(holder: Model | World) -> set[frozenset[str]]:
+    """The pairs of bodies that the file excludes."""
+    sections = (each for each in kept_elements(holder) if each.name == "contact")
+    excluding = (each for section in sections for each in section.children if each.name == "exclude")
+    return {frozenset((each.get("body1") or "", each.get("body2") or "")) for each in excluding}
 
 
 def kept_apart(model: Model, root: XmlElement) -> Model:

@@ -35,6 +35,10 @@ class Bits(NamedTuple):
     contype: int
     conaffinity: int
 
+    def meets(self, other: "Bits") -> bool:
+        """Tell whether two geoms touch."""
+        return bool(self.contype & other.conaffinity or other.contype & self.conaffinity)
+
 
 USUAL = Bits(1, 1)
 """What a geom of MJCF has where nothing is written."""
@@ -102,7 +106,17 @@ class ContactPlan:
         """Whether any two of these links touch by their bits, which is what a reader of the file sees."""
         counts = Counter(bits for link in links for bits in self._bits_of(link))
         pairs = [*combinations(counts, 2), *((bits, bits) for bits, count in counts.items() if count > 1)]
-        return any(_meet(*pair) for pair in pairs)
+        return any(one.meets(other) for one, other in pairs)
+
+    @property
+    def apart(self) -> Iterator[Pair]:
+        """The pairs of links that touch nowhere in SDF, and in MuJoCo only what is written keeps apart.
+
+        Those that a joint connects are not among them: no link of SDF can be told to touch the one that it hangs from.
+        """
+        joined = frozenset(map(frozenset, self._joints()))
+        for links in self._groups.values():
+            yield from (pair for pair in self._needless_contacts(links) if frozenset(pair) not in joined)
 
     def _told_to_touch(self, links: Collection[str]) -> Collection[str]:
         """The links of a model that touches itself, if their bits do not."""
@@ -152,17 +166,19 @@ class ContactPlan:
 
     def _joined(self) -> Iterator[Pair]:
         """Yield the pairs of links that a joint connects, and that would touch by their bits."""
+        return (pair for pair in self._joints() if not self._is_filtered(*pair) and self._touch(*pair))
+
+    def _joints(self) -> Iterator[Pair]:
+        """Yield the pairs of links that a joint connects."""
         links = self._tree.links
         between = [above for name in links if (above := self._tree.joint_above(name))]
-        for each in (*between, *self._tree.closing):
-            pair = (each.parent, each.child)
-            if all(name in links for name in pair) and not self._is_filtered(*pair) and self._touch(*pair):
-                yield pair
+        pairs = ((each.parent, each.child) for each in (*between, *self._tree.closing))
+        return (pair for pair in pairs if all(name in links for name in pair))
 
     def _touch(self, one: str, other: str) -> bool:
         """Whether any geoms of two links touch by their bits."""
         mine, others = self._bits_of(one), self._bits_of(other)
-        return any(_meet(a, b) for a in mine for b in others)
+        return any(a.meets(b) for a in mine for b in others)
 
     def _bits_of(self, link: str) -> frozenset[Bits]:
         return frozenset(self.bits(link, each) for each in self._tree.links[link].collisions)
@@ -198,10 +214,6 @@ class ContactPlan:
             way.append(above.parent)
         self._welds.update(dict.fromkeys(way, top))
         return top
-
-
-def _meet(one: Bits, other: Bits) -> bool:
-    return bool(one.contype & other.conaffinity or other.contype & one.conaffinity)
 
 
 def mask_of(collision: Collision, name: str) -> int | None:

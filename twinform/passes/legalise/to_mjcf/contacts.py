@@ -49,7 +49,8 @@ def _friction(context: MjcfContext, collision: Collision) -> Iterator[tuple[str,
         context.sink.report(rules.STALE_CARRIER, message, collision.location, found=str(kept))
     if friction.condim > max(kept, USUAL_CONDIM) or kept not in _CONDIMS:
         yield "condim", str(friction.condim)
-    if not context.is_of_mjcf and (priority := context.friction_priorities[friction]):
+    is_edited = bool(_kept(collision, "priority"))  # in the file of MJCF that it has been
+    if not (context.is_of_mjcf or is_edited) and (priority := context.friction_priorities[friction]):
         yield "priority", str(priority)
     if surface is not None and not context.is_of_mjcf and (left := without_friction(surface)) is not surface:
         context.leave(surface, left)
