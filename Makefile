@@ -53,54 +53,14 @@ fmt: $(SYNCED) ## format, and fix what the linter can fix
 	$(BIN)/ruff format .
 
 generate: $(SYNCED) ## write the files that are made from tables: schemas and reference pages
-	$(BIN)/python -m twinform.schemas.generate
-	$(BIN)/python -m twinform.diagnostics.rule_table twinform/diagnostics/rules/__init__.py
-	$(BIN)/python -m twinform.passes.framework.built_in_table twinform/passes/framework/built_in.py
-	$(BIN)/python -m twinform.passes.sdf_versions.lacking_table twinform/passes/sdf_versions/lacking.py
-	$(BIN)/python -m twinform.diagnostics.rules_page docs/reference/rules.md
-	$(BIN)/python -m twinform.passes.framework.passes_page docs/reference/passes.md
-	$(BIN)/python -m twinform.passes.legalise.pipeline_page docs/explanation/pipeline.md
-	$(BIN)/python -m twinform.passes.plugins.plugins_page docs/reference/plugins.md
-	$(BIN)/python -m generators.shown_by twinform/profiles/data/shown_by.json
-	$(BIN)/python -m twinform.profiles.profile_pages docs/reference/profiles
-	$(BIN)/python -m reports.who_reads_it.feature_pages docs/reference/who_reads_what
-	$(BIN)/python -m twinform.compiler.compare.not_compared_page docs/reference/not_compared.md
-	$(BIN)/python -m twinform.cli.commands_page docs/reference/commands.md
-	$(BIN)/python -m twinform.compiler.options_page docs/reference/options.md
-	$(BIN)/python -m twinform.compiler.option_docstrings
-	$(BIN)/python -m generators.mapping.elements urdf docs/reference/urdf
-	$(BIN)/python -m generators.mapping.elements sdf docs/reference/sdf
-	$(BIN)/python -m generators.mapping.elements mjcf docs/reference/mjcf
-	$(BIN)/python -m generators.libsdformat_codes docs/reference/libsdformat_codes.md
-	$(BIN)/python -m generators.mapping.page docs/explanation/mapping.md
-	$(BIN)/python -m generators.mapping.destinations twinform/server/destinations.json
+	$(BIN)/python -m generators
 
 lint: $(SYNCED) ## formatting, lint, types, layers, generated files, and a wheel that works in an empty environment
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/basedpyright
 	$(BIN)/lint-imports
-	$(BIN)/python -m twinform.schemas.generate --check
-	$(BIN)/python -m twinform.diagnostics.rule_table twinform/diagnostics/rules/__init__.py --check
-	$(BIN)/python -m twinform.passes.framework.built_in_table twinform/passes/framework/built_in.py --check
-	$(BIN)/python -m twinform.passes.sdf_versions.lacking_table twinform/passes/sdf_versions/lacking.py --check
-	$(BIN)/python -m twinform.diagnostics.rules_page docs/reference/rules.md --check
-	$(BIN)/python -m twinform.passes.framework.passes_page docs/reference/passes.md --check
-	$(BIN)/python -m twinform.passes.legalise.pipeline_page docs/explanation/pipeline.md --check
-	$(BIN)/python -m twinform.passes.plugins.plugins_page docs/reference/plugins.md --check
-	$(BIN)/python -m generators.shown_by twinform/profiles/data/shown_by.json --check
-	$(BIN)/python -m twinform.profiles.profile_pages docs/reference/profiles --check
-	$(BIN)/python -m reports.who_reads_it.feature_pages docs/reference/who_reads_what --check
-	$(BIN)/python -m twinform.compiler.compare.not_compared_page docs/reference/not_compared.md --check
-	$(BIN)/python -m twinform.cli.commands_page docs/reference/commands.md --check
-	$(BIN)/python -m twinform.compiler.options_page docs/reference/options.md --check
-	$(BIN)/python -m twinform.compiler.option_docstrings --check
-	$(BIN)/python -m generators.mapping.elements urdf docs/reference/urdf --check
-	$(BIN)/python -m generators.mapping.elements sdf docs/reference/sdf --check
-	$(BIN)/python -m generators.mapping.elements mjcf docs/reference/mjcf --check
-	$(BIN)/python -m generators.libsdformat_codes docs/reference/libsdformat_codes.md --check
-	$(BIN)/python -m generators.mapping.page docs/explanation/mapping.md --check
-	$(BIN)/python -m generators.mapping.destinations twinform/server/destinations.json --check
+	$(BIN)/python -m generators --check
 	$(MAKE) --no-print-directory wheel
 
 site: $(SYNCED) ## build the documentation site into out/site; every warning is an error

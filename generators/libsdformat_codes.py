@@ -4,7 +4,6 @@ The case files are searched for those that announce a rule, so the page shows wh
 """
 
 import re
-import sys
 import tomllib
 from collections import defaultdict
 from pathlib import Path
@@ -12,7 +11,6 @@ from typing import NamedTuple
 
 from testbed.corpus.files import ROOT
 from testbed.markdown import paragraphs, rule_links, table
-from twinform.diagnostics.generated_files import main
 
 CASES = ROOT / "tests" / "cases" / "check"
 _EXPECT = re.compile(r"<!--\s*expect:\s*\w+\s+([\w-]+)\s*-->")
@@ -63,7 +61,3 @@ def _table(title: str, rows: tuple[Row, ...], cases: dict[str, list[str]]) -> st
 
 def _shown(row: Row, cases: dict[str, list[str]]) -> str:
     return ", ".join(dict.fromkeys(name for rule in row.rules for name in cases[rule][:2]))
-
-
-if __name__ == "__main__":
-    sys.exit(main(page(), sys.argv[1:]))

@@ -1,16 +1,14 @@
-"""Finds which feature shows what a row of a profile is about: `python -m generators.shown_by FILE [--check]`.
+"""Finds which feature shows what a row of a profile is about.
 
 All features are assessed by all profiles. Of several that show the same, the one counts about which least is said.
 """
 
 import json
-import sys
 from collections.abc import Iterator
 
 from testbed.markdown import grouped
 from twinform.compiler.advising import assess_file
 from twinform.compiler.input.load_options import LoadOptions
-from twinform.diagnostics.generated_files import main
 from twinform.profiles import every_release
 from twinform.profiles.features import PLAIN, Feature, features, strip_predicates
 
@@ -42,7 +40,3 @@ def said_of(feature: Feature) -> set[_Key]:
         for each in assess_file(feature.path, every_release(), LoadOptions())
         for judgment in each.judgments
     }
-
-
-if __name__ == "__main__":
-    sys.exit(main(table(), sys.argv[1:]))

@@ -11,10 +11,10 @@ from typing import Any, cast
 
 from lxml import etree
 
+from testbed.not_compared import NOT_COMPARED
 from twinform.compiler import CompileError
 from twinform.compiler.build_normal_form import extension_rows
 from twinform.compiler.compare import diff
-from twinform.compiler.compare.not_compared_page import NOT_COMPARED
 from twinform.compiler.input.front_ends import declared_version
 from twinform.compiler.input.loading import LoadOptions, read
 from twinform.diagnostics import DiagnosticSink

@@ -73,12 +73,8 @@ def test_the_rule_has_a_page_and_names_who_brings_it(site: Path) -> None:
 
 
 def test_our_own_pages_are_ours_alone(site: Path) -> None:
-    for module, page in (
-        ("twinform.passes.framework.passes_page", "passes"),
-        ("twinform.diagnostics.rules_page", "rules"),
-    ):
-        check = [sys.executable, "-m", module, f"docs/reference/{page}.md", "--check"]
-        subprocess.run(check, cwd=_ROOT, env={**os.environ, "PYTHONPATH": str(site)}, check=True)
+    check = [sys.executable, "-m", "generators", "docs/reference/passes.md", "docs/reference/rules.md", "--check"]
+    subprocess.run(check, cwd=_ROOT, env={**os.environ, "PYTHONPATH": str(site)}, check=True)
 
 
 @pytest.mark.parametrize(

@@ -4,10 +4,10 @@ from pathlib import Path
 
 import pytest
 
+from testbed.not_compared import NOT_COMPARED
 from testbed.respellings import KINDS, respellings
 from testbed.value_mutants import MISSED, mutants
 from tests.profile import DEEP
-from twinform.compiler.compare.not_compared_page import NOT_COMPARED
 
 _CASES = Path(__file__).parent / "cases"
 _FILES = sorted(path for path in _CASES.rglob("*") if path.suffix in {".urdf", ".sdf"})

@@ -13,7 +13,7 @@ from mkdocs.structure.files import File, Files
 from mkdocs.structure.pages import Page
 
 from twinform.diagnostics import catalog
-from twinform.diagnostics.rules_page import rule_page
+from twinform.diagnostics.rule_page import rule_page
 
 _ROOT = Path(__file__).parents[2]
 _LINK = re.compile(r"\[(?P<text>(?:[^\[\]]|\[[^\]]*\])*)\]\((?P<path>(?:\.\./)+[^)#\s]*)(?P<anchor>#[^)\s]*)?\)")

@@ -1,15 +1,13 @@
-"""Makes the table of where rows go for the hovers of editors: `python -m generators.mapping.destinations FILE`.
+"""Makes the table of where rows go for the hovers of editors.
 
 It has for each path of both formats what the page of the mapping says: where it goes, and what became of it.
 """
 
 import json
 import re
-import sys
 
 from generators.mapping.cells import became, where
 from generators.mapping.measure import Seen, measured
-from twinform.diagnostics.generated_files import main
 from twinform.server.mapping import FORMATS, FormatName, rows
 
 _LINK = re.compile(r"\[(?P<text>[^\]]*)\]\([^)]*\)")
@@ -32,7 +30,3 @@ def _of_format(name: FormatName) -> dict[str, list[str]]:
         fates = [*filter(None, old_fates.split(" or ")), *filter(None, became(own).split(" or "))]
         found[row.path] = [old_goes or ("" if goes in _NOWHERE else goes), " or ".join(dict.fromkeys(fates))]
     return {path: entry for path, entry in found.items() if any(entry)}
-
-
-if __name__ == "__main__":
-    sys.exit(main(destinations_table(), sys.argv[1:]))

@@ -1,11 +1,10 @@
-"""The pages of a format: `python -m generators.mapping.elements urdf|sdf|mjcf FOLDER [--check]` writes or checks them.
+"""Makes the pages of the elements of each format.
 
 There is one for each type of element, with a row for each element and attribute in it: what the facts tables say of it
 and what it means; for URDF and SDF, whose rows have counterparts in each other, also where it goes, the rules, and a
 case file that proves it.
 """
 
-import sys
 from collections.abc import Iterator
 from typing import get_args
 
@@ -15,12 +14,11 @@ from generators.mapping.measure import Seen, measured
 from generators.mapping.notes import Note, notes
 from testbed.markdown import paragraphs, rule_links
 from testbed.markdown import table as markdown_table
-from twinform.diagnostics.generated_files import main_of_folder
 from twinform.schemas import table
 from twinform.schemas.meanings import meanings
 from twinform.server.mapping import FORMATS, FormatName, MappingRow, rows, sections
 
-_LIST = "README.md"
+_LIST = "README"
 _ABOUT = """\
 Every element and attribute of {title} as it is read and written here, a page for each type of element: type, default
 and limits, versions, what it means, what becomes of it in {other}, and a case file that proves it.
@@ -35,9 +33,15 @@ _HEAD = ["element", "type", "versions", "meaning"]
 _GOES = ["where it goes", "in the IR", "rules", "case"]
 
 
-def pages(format: FormatName) -> dict[str, str]:
-    """The pages of a format by the names of their files, and the one that lists them."""
-    return {_LIST: _list(format), **{f"{name}.md": _page(format, name) for name in sections(format)}}
+def pages() -> dict[str, str]:
+    """The pages of all formats, and one of each that lists them, by their paths."""
+    return {f"{format}/{name}.md": text for format in get_args(FormatName) for name, text in pages_of(format)}
+
+
+def pages_of(format: FormatName) -> Iterator[tuple[str, str]]:
+    """Yield the names and texts of the pages of a format, that of the list first."""
+    yield _LIST, _list(format)
+    yield from ((name, _page(format, name)) for name in sections(format))
 
 
 def _list(format: FormatName) -> str:
@@ -96,8 +100,3 @@ def _note(note: Note) -> str:
         f" {title}: {links}." for title, links in (("Rules", rule_links(note.rules, ROOT)), ("Cases", cases)) if links
     )
     return f"* {about}: {note.text}{''.join(links_after)}"
-
-
-if __name__ == "__main__":
-    chosen = next(each for each in get_args(FormatName) if each == sys.argv[1])
-    sys.exit(main_of_folder(pages(chosen), sys.argv[2:]))

@@ -1,11 +1,9 @@
 """Makes the page on where elements go: how to read the pages of the formats, and what is passed over."""
 
-import sys
 from collections.abc import Iterator
 
 from generators.mapping.lists import passed_over
 from testbed.markdown import paragraphs
-from twinform.diagnostics.generated_files import main
 from twinform.server.mapping import FORMATS, FormatName, sections
 
 _HEAD = "# Where every element goes"
@@ -35,7 +33,3 @@ def _contents() -> Iterator[str]:
     for name in FORMATS:
         links = ", ".join(f"[{one}](../reference/{name}/{one}.md)" for one in sections(name))
         yield f"**{_TITLES[name]}:** {links}.\n"
-
-
-if __name__ == "__main__":
-    sys.exit(main(page(), sys.argv[1:]))

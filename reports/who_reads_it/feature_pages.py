@@ -1,7 +1,6 @@
-"""Makes the pages of features from what was measured: `python -m reports.who_reads_it.feature_pages FOLDER`."""
+"""Makes the pages of features from what was measured."""
 
 import json
-import sys
 from collections.abc import Iterator, Mapping, Sequence
 from typing import NotRequired, TypedDict
 
@@ -9,7 +8,6 @@ from lxml import etree
 
 from testbed.corpus.files import ROOT
 from testbed.markdown import grouped, paragraphs, table
-from twinform.diagnostics.generated_files import main_of_folder
 
 FOLDER = ROOT / "docs" / "reference" / "who_reads_what"
 CELLS = FOLDER / "cells.json"
@@ -86,6 +84,11 @@ class Matrix(TypedDict):
     consumers: list[Consumer]
     features: list[FeatureRow]
     cells: list[CellRow]
+
+
+def measured_pages() -> dict[str, str]:
+    """The pages of what was measured last."""
+    return pages(CELLS.read_text(encoding="utf-8"))
 
 
 def pages(text: str) -> dict[str, str]:
@@ -201,7 +204,3 @@ def _label(consumers: Sequence[Consumer]) -> str:
 
 def _escape(text: str) -> str:
     return text.replace("<", "\\<").replace("*", "\\*")
-
-
-if __name__ == "__main__":
-    sys.exit(main_of_folder(pages(CELLS.read_text(encoding="utf-8")), sys.argv[1:]))

@@ -10,8 +10,8 @@ from reports.harness.section import UNEXPLAINED, Findings, Section
 from reports.who_reads_it.feature_cells import VERDICTS, Cell, as_json, cells, changes, columns, read_cells
 from reports.who_reads_it.feature_pages import CELLS, FOLDER, pages
 from reports.who_reads_it.loaders import absent
+from testbed.generated_files import marked, write
 from testbed.markdown import listing, subsection, table
-from twinform.diagnostics.generated_files import main_of_folder
 from twinform.profiles.features import features
 
 KNOWN = Known.beside(__file__, contains)
@@ -41,7 +41,7 @@ def measure(sample: Sample) -> Findings:
     if len(asked_about) == len(every):
         text = as_json(found, every)
         twinform.write_atomically(CELLS, text)
-        main_of_folder(pages(text), [str(FOLDER)])
+        write(marked({FOLDER / name: page for name, page in pages(text).items()}))
     causes = {cell: _cause(cell) for cell in found if cell.disagrees}
     faults = [
         f"{each.feature}: {each.consumer}: {each.disagrees}: {each.message}" for each in causes if not causes[each]

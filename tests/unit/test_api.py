@@ -11,8 +11,8 @@ from pathlib import Path
 import pytest
 
 import twinform
+from generators.options import OPTIONS
 from testbed.corpus.files import ROOT
-from twinform.compiler.option_docstrings import OPTIONS, with_options
 
 
 def test_every_public_name_is_there_and_sorted() -> None:
@@ -84,5 +84,3 @@ def test_help_says_each_parameter_and_each_option(function: Callable[..., object
     own = [each for each in inspect.signature(function).parameters if each != "options"]
     for name in (*own, *OPTIONS[function].__annotations__):
         assert f"\n    {name}: " in text
-    source = Path(inspect.getfile(function)).read_text("utf-8")
-    assert with_options(source, function.__name__, OPTIONS[function]) == source

@@ -12,8 +12,8 @@ from twinform.cli.printing import print_text, styled
 from twinform.diagnostics import Rule
 from twinform.diagnostics.catalog import rule_address
 from twinform.diagnostics.did_you_mean import did_you_mean
+from twinform.diagnostics.rule_page import sections, severity_words
 from twinform.diagnostics.rule_registry import OWN, RegisteredRule, RuleRegistryError, find_rule, rules
-from twinform.diagnostics.rules_page import sections, severity_words
 
 if TYPE_CHECKING:
     from twinform.profiles import Assessment

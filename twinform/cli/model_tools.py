@@ -23,8 +23,8 @@ from twinform.compiler.statistics_reporters import REPORTERS as STATISTICS_REPOR
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, Severity, did_you_mean
 from twinform.diagnostics.reporters import REPORTERS
+from twinform.diagnostics.rule_page import sections, severity_words
 from twinform.diagnostics.rule_registry import RuleRegistryError, find_rule, rules
-from twinform.diagnostics.rules_page import sections, severity_words
 from twinform.file_access import Readable
 from twinform.passes import FilesPass, PassError
 from twinform.request_options import RequestOptions

@@ -12,8 +12,8 @@ from twinform.cli.config_defaults import Project, config_options, settings_of
 from twinform.cli.printing import print_document, print_text, styled
 from twinform.passes import Pass, PipelineError, Registered, RegistryError, parse_pipeline, registered_passes
 from twinform.passes.framework.pass_options import nearest
+from twinform.passes.framework.pass_page import OptionPage, description, options, summary
 from twinform.passes.framework.pass_registry import OWN
-from twinform.passes.framework.passes_page import OptionPage, description, options, summary
 from twinform.passes.framework.pipeline_text import print_tables
 
 _TABLE_NAME = "mine"

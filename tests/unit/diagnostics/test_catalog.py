@@ -1,13 +1,10 @@
 import re
-import subprocess
-import sys
-from pathlib import Path
 
+from generators.rules_page import rules_page
 from twinform.diagnostics import catalog
 from twinform.diagnostics.diagnostic import GROUPS
-from twinform.diagnostics.rules_page import rules_page, sections, severity_words
+from twinform.diagnostics.rule_page import sections, severity_words
 
-PAGE = Path(__file__).parents[3] / "docs/reference/rules.md"
 RULES = list(catalog().values())
 
 
@@ -42,24 +39,3 @@ def test_the_page_has_every_rule_once_in_order_in_its_group() -> None:
     for group, table in groups.items():
         wanted = [name for name, rule in catalog().items() if rule.group == group]
         assert re.findall(r"^\| \[(.*?)\]", table, re.MULTILINE) == wanted
-
-
-def test_the_committed_page_is_up_to_date() -> None:
-    done = generator(str(PAGE), "--check")
-    assert done.returncode == 0, done.stderr
-
-
-def test_an_old_page_is_found_and_renewed(tmp_path: Path) -> None:
-    page = tmp_path / "rules.md"
-    assert generator(str(page), "--check").returncode == 1
-    page.write_text("old")
-    assert "out of date" in generator(str(page), "--check").stderr
-    assert generator(str(page)).returncode == 0
-    assert generator(str(page), "--check").returncode == 0
-    mark = "<!-- Made by `make generate`; do not edit. -->\n"
-    assert generator().stdout == page.read_text().replace(f"\n{mark}", "")
-
-
-def generator(*arguments: str) -> subprocess.CompletedProcess[str]:
-    command = [sys.executable, "-m", "twinform.diagnostics.rules_page", *arguments]
-    return subprocess.run(command, capture_output=True, text=True, check=False)

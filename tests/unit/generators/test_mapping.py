@@ -2,7 +2,7 @@
 
 import pytest
 
-from generators.mapping.elements import pages
+from generators.mapping.elements import pages_of
 from generators.mapping.file_rows import targets, unreachable
 from generators.mapping.measure import CASES
 from generators.mapping.notes import Note, destinations, notes
@@ -53,9 +53,9 @@ def test_only_what_the_specification_gives_no_place_is_left_aside() -> None:
 
 
 def test_pages_of_mjcf_say_what_each_row_is_and_means() -> None:
-    made = pages("mjcf")
-    assert [name for name in sections("mjcf") if f"{name}.md" not in made] == []
-    assert "| `@range` | two numbers, default `0 0` |  | Its lower and its upper limit. |" in made["joint.md"]
-    assert "| `@orthographic` | bool | 3.2 to 3.4 | Whether it has no perspective;" in made["camera.md"]
-    assert "| `@target` | string, the name of a body |  | The body that it looks at. |" in made["camera.md"]
-    assert "| [`body`](body.md) | any number |" in made["body.md"]
+    made = dict(pages_of("mjcf"))
+    assert [name for name in sections("mjcf") if name not in made] == []
+    assert "| `@range` | two numbers, default `0 0` |  | Its lower and its upper limit. |" in made["joint"]
+    assert "| `@orthographic` | bool | 3.2 to 3.4 | Whether it has no perspective;" in made["camera"]
+    assert "| `@target` | string, the name of a body |  | The body that it looks at. |" in made["camera"]
+    assert "| [`body`](body.md) | any number |" in made["body"]

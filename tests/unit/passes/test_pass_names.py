@@ -14,7 +14,7 @@ import twinform.passes
 from twinform.compiler.reproducers import Reproducer
 from twinform.ir import Document, Format, Model
 from twinform.passes import FailedPassError, Pass, registered_passes
-from twinform.passes.framework.passes_page import description
+from twinform.passes.framework.pass_page import description
 from twinform.passes.legalise import legalisation_kinds
 from twinform.passes.legalise.nested_models import FlattenForUrdf
 from twinform.passes.structure.flatten_models import FlattenModels

@@ -4,7 +4,7 @@ import pytest
 
 from twinform.passes import find_pass, parse_pipeline, registered_passes
 from twinform.passes.framework.pass_base import EVERY, matches, with_such_a_name
-from twinform.passes.framework.passes_page import options
+from twinform.passes.framework.pass_page import options
 from twinform.passes.joints.fill_limits import FillLimits
 
 CHOOSING = {"collisions", "joints", "lights", "links", "plugins", "sensors", "visuals"}

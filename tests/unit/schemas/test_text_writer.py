@@ -6,10 +6,10 @@ import pytest
 from lxml import etree
 
 import twinform
+from generators.text_writers import generate_text_writer
 from twinform.ir import Document, Element, Format, Inertial, Link, Model, Opaque, Plugin, Pose
 from twinform.schemas import WrittenParts, node_xml, parse_version, root_text, table
 from twinform.schemas.facts import parse_facts
-from twinform.schemas.text_generator import generate_text_writer
 
 _KNOWN = {"k": "urn:known"}
 

@@ -6,7 +6,8 @@ import pytest
 import xmlschema
 from lxml import etree
 
-from twinform.schemas import Fact, XmlElement, generate
+from generators.schemas import FORMATS
+from twinform.schemas import Fact, XmlElement
 from twinform.schemas.value_types import VALUE_TYPES
 from twinform.schemas.xsd_values import TOKENS, XS, Values, xs
 
@@ -62,12 +63,12 @@ def _holders(word: str, text: str) -> list[XmlElement]:
     return roots
 
 
-@pytest.mark.parametrize("name", generate.FORMATS)
+@pytest.mark.parametrize("name", FORMATS)
 def test_every_value_type_but_text_has_a_pattern(name: str):
     assert TOKENS[name].keys() == VALUE_TYPES[name].keys() - {"string"}
 
 
-@pytest.mark.parametrize(("name", "word"), [(name, word) for name in generate.FORMATS for word in TOKENS[name]])
+@pytest.mark.parametrize(("name", "word"), [(name, word) for name in FORMATS for word in TOKENS[name]])
 def test_patterns_take_what_the_parsers_take(name: str, word: str):
     libxml2 = etree.XMLSchema(etree.fromstring(_schema_of_values(name)))
     reference = _reference(name)
@@ -80,7 +81,7 @@ def test_patterns_take_what_the_parsers_take(name: str, word: str):
             assert reference.is_valid(root) is expected, etree.tostring(root)
 
 
-@pytest.mark.parametrize(("name", "word"), [(name, word) for name in generate.FORMATS for word in TOKENS[name]])
+@pytest.mark.parametrize(("name", "word"), [(name, word) for name in FORMATS for word in TOKENS[name]])
 def test_only_blanks_of_xml_are_blank(name: str, word: str):
     # xmlschema 4.3 is no judge here: it strips and splits as Python does
     libxml2 = etree.XMLSchema(etree.fromstring(_schema_of_values(name)))
@@ -89,7 +90,7 @@ def test_only_blanks_of_xml_are_blank(name: str, word: str):
         assert not any(libxml2.validate(root) for root in _holders(word, text)), text
 
 
-@pytest.mark.parametrize("name", generate.FORMATS)
+@pytest.mark.parametrize("name", FORMATS)
 def test_a_number_that_no_double_holds_is_left_to_the_parser(name: str):
     libxml2 = etree.XMLSchema(etree.fromstring(_schema_of_values(name)))
     assert libxml2.validate(etree.Element("values", double="1e400"))

@@ -34,7 +34,7 @@ def sarif(files: Sequence[FileFindings]) -> str:
 
 
 def _rule(rule: Rule) -> dict[str, object]:
-    from twinform.diagnostics.rules_page import sections  # noqa: PLC0415 - few runs write it
+    from twinform.diagnostics.rule_page import sections  # noqa: PLC0415 - few runs write it
 
     page = [*sections(rule), ("More", more_about(rule.name))]
     text = "\n".join(f"{heading}: {body}" for heading, body in page)

@@ -1,18 +1,10 @@
 """The table of built-in passes."""
 
-from importlib import import_module
-from pathlib import Path
-
 import pytest
 
 from twinform.passes import find_pass, registered_passes
 from twinform.passes.framework.built_in import BUILT_IN
-from twinform.passes.framework.built_in_table import built_in_table
 from twinform.passes.framework.pass_registry import HOME, OWN
-
-
-def test_the_committed_table_is_up_to_date() -> None:
-    assert Path(str(import_module("twinform.passes.framework.built_in").__file__)).read_text() == built_in_table()
 
 
 def test_the_table_says_what_the_entry_points_say() -> None:

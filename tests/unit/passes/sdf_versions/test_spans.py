@@ -1,10 +1,6 @@
 """The census has a bit for all that a version may lack."""
 
-from pathlib import Path
-
 from twinform.ir.rewrite import PLANS, RARE
-from twinform.passes.sdf_versions import lacking
-from twinform.passes.sdf_versions.lacking_table import lacking_table
 from twinform.passes.sdf_versions.spans import bits_lacking
 from twinform.schemas import parse_version, table
 
@@ -13,10 +9,6 @@ OF_URDF = {
     ("Limit", "jerk"), ("Pose", "quat_xyzw"),
 }  # fmt: skip
 """Fields with a bit that not every version of URDF has."""
-
-
-def test_the_table_is_that_of_the_facts() -> None:
-    assert Path(lacking.__file__).read_text(encoding="utf-8") == lacking_table()
 
 
 def test_fields_have_a_bit_where_a_version_lacks_them_and_only_there() -> None:

@@ -1,12 +1,20 @@
-"""The page of the options: `python -m twinform.compiler.options_page FILE [--check]` writes or checks it."""
+"""Writes options where they are read: on a page, and into the docstrings of the functions that take them as keywords.
 
-import sys
-from collections.abc import Iterable
+There they stand under `Keyword Args:`, where `help`, notebooks and editors show them. An editor reads the docstring in
+the source and runs nothing, so it has to stand there.
+"""
 
-from twinform.compiler.driver import ConversionOptions
+import textwrap
+from collections.abc import Callable, Iterable, Mapping
+
+from twinform.compiler.compare.compare_files import diff
+from twinform.compiler.descriptions import load_description
+from twinform.compiler.driver import ConversionOptions, convert
 from twinform.compiler.input.load_options import AnyCheckOptions, FileOptions, ReadingOptions
-from twinform.diagnostics.generated_files import main
+from twinform.compiler.input.loading import load, loads
+from twinform.compiler.inspection import check
 from twinform.option import Option, declared_options
+from twinform.package_files import package_files
 from twinform.request_options import RequestOptions
 
 _INTRODUCTION = """\
@@ -32,6 +40,17 @@ _OTHERS = {
 }
 """Options that commands declare themselves, each in its own way."""
 _OF = {"files": FileOptions, "checks": AnyCheckOptions, "conversions": RequestOptions}
+_HEADING = "    Keyword Args:\n"
+_WIDTH = 120
+OPTIONS: Mapping[Callable[..., object], type] = {
+    load: FileOptions,
+    loads: FileOptions,
+    load_description: FileOptions,
+    check: AnyCheckOptions,
+    convert: ConversionOptions,
+    diff: FileOptions,
+}
+"""The functions, each with the options that it takes."""
 
 
 def options_page() -> str:
@@ -53,5 +72,20 @@ def _row(name: str, option: Option) -> str:
     return f"| `{name}` | {of} | `{flag}` | {'yes' if option.setting else ''} | {option.help} |\n"
 
 
-if __name__ == "__main__":
-    sys.exit(main(options_page(), sys.argv[1:]))
+def with_options(text: str, function: str, options: type) -> str:
+    """Return the text of a module in which the docstring of a function has all its options."""
+    start = text.index(_HEADING, text.index(f"\ndef {function}(")) + len(_HEADING)
+    end = text.index("\n\n", start - 1) + 1
+    lines = (f"{name}: {option.help}" for name, option in options_of(options.__annotations__).items())
+    wrapped = (textwrap.fill(line, _WIDTH, initial_indent=" " * 8, subsequent_indent=" " * 12) for line in lines)
+    return text[:start] + "".join(f"{line}\n" for line in wrapped) + text[end:]
+
+
+def docstrings() -> dict[str, str]:
+    """Return the modules of all functions as they should be, by their paths in the package."""
+    texts: dict[str, str] = {}
+    for function, options in OPTIONS.items():
+        path = function.__module__.partition(".")[2].replace(".", "/") + ".py"
+        before = texts.get(path) or package_files("twinform").joinpath(path).read_text("utf-8")
+        texts[path] = with_options(before, function.__name__, options)
+    return texts

@@ -1,9 +1,7 @@
-"""Generator of the page of systems and sensors: `python -m twinform.passes.plugins.plugins_page FILE [--check]`."""
+"""Makes the page of systems and sensors from their catalog."""
 
-import sys
 from collections.abc import Iterable, Iterator
 
-from twinform.diagnostics.generated_files import main
 from twinform.passes.plugins.add_sensor import addable, settings_of
 from twinform.passes.plugins.catalog import releases, ros_message, sensors, systems
 from twinform.passes.plugins.catalog_types import PluginKind, PluginParameter, SensorKind
@@ -129,7 +127,3 @@ def _describe_releases(mine: Iterable[str], all_: Iterable[str] | None = None) -
 
 def _format_table(head: str, rows: list[str]) -> str:
     return "\n".join([head, "|" + "---|" * (head.count("|") - 1), *rows]) + "\n"
-
-
-if __name__ == "__main__":
-    sys.exit(main(plugins_page(), sys.argv[1:]))

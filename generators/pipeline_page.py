@@ -1,13 +1,11 @@
-"""Generator of the pipeline page: `python -m twinform.passes.legalise.pipeline_page FILE [--check]`."""
+"""Makes the page of the passes of legalisation, in the order in which they run."""
 
-import sys
 from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
-from twinform.diagnostics.generated_files import main
 from twinform.ir import Format
 from twinform.passes.framework.pass_base import Pass
-from twinform.passes.framework.passes_page import summary
+from twinform.passes.framework.pass_page import summary
 from twinform.passes.framework.pipeline import Pipeline
 from twinform.passes.legalise import Target, legalisation
 from twinform.request_options import URDF_VERSIONS
@@ -79,7 +77,3 @@ def _items(passes: Iterable[Pass]) -> Iterator[str]:
     for number, each in enumerate(passes, 1):
         path = f"{_SOURCE}/{type(each).__module__.replace('.', '/')}.py"
         yield f"{number}. [`{Pipeline((each,))}`]({path}): {summary(type(each))}"
-
-
-if __name__ == "__main__":
-    sys.exit(main(pipeline_page(), sys.argv[1:]))

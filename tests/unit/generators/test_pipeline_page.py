@@ -1,27 +1,19 @@
 """The page of the pipeline has every pass of legalisation, in the order in which they run."""
 
 import re
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 
 import twinform
+from generators.pipeline_page import pipeline_page
 from twinform.compiler import plan
 from twinform.ir import Format
 from twinform.passes.framework.pipeline_text import parse_pipeline
 from twinform.passes.legalise import Target, legalisation, legalisation_kinds
-from twinform.passes.legalise.pipeline_page import pipeline_page
 
-PAGE = Path(__file__).parents[4] / "docs/explanation/pipeline.md"
+PAGE = Path(__file__).parents[3] / "docs/explanation/pipeline.md"
 _ITEM = re.compile(r"^\d+\. \[`(.*?)`\]\((.*?)\): (.+)$", re.MULTILINE)
-
-
-def test_the_committed_page_is_up_to_date() -> None:
-    command = [sys.executable, "-m", "twinform.passes.legalise.pipeline_page", str(PAGE), "--check"]
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
-    assert done.returncode == 0, done.stderr
 
 
 def test_every_pass_of_legalisation_is_there_with_a_link_that_leads_to_it() -> None:

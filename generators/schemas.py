@@ -1,50 +1,37 @@
-"""Writes what is made from the facts, XSDs and Python: `python -m twinform.schemas.generate`.
+"""Makes XSDs, the writers and the usage of names from the facts tables."""
 
-With `--check` the files are only compared.
-"""
-
-import sys
 from collections import defaultdict
-from collections.abc import Hashable, Iterable, Iterator, Sequence
+from collections.abc import Hashable, Iterable, Iterator
+from importlib.resources.abc import Traversable
 from pathlib import Path
 from string import Template
 from typing import TypeVar, get_args
 
+from generators.text_writers import generate_text_writer
 from twinform.ir.versions import parse_version
+from twinform.package_files import package_files
 from twinform.schemas.facts import Fact, Table, table
 from twinform.schemas.packaged import XsdVersion, code_file, schema_file
-from twinform.schemas.text_generator import generate_text_writer
 from twinform.schemas.xsd import generate_schema
-from twinform.storage.writing import write_all_atomically
 
 FORMATS = ("urdf", "sdf", "mjcf")
+_FOLDER = Path(str(package_files("twinform.schemas")))
 
 
-def generated() -> Iterator[tuple[Path, str]]:
-    """Every file that is made from the facts, and its text."""
+def schemas() -> dict[str, str]:
+    """Return every file that is made from the facts, by its path in `twinform/schemas`."""
+    return {str(Path(str(file)).relative_to(_FOLDER)): text for file, text in _generated()}
+
+
+def _generated() -> Iterator[tuple[Traversable, str]]:
     for name in FORMATS:
         facts = table(name)
         for version in map(parse_version, facts.versions):
             for xsd in get_args(XsdVersion):
-                yield Path(str(schema_file(name, version, xsd))), generate_schema(facts, version, xsd)
-        yield Path(str(code_file(f"{name}_text"))), generate_text_writer(facts)
-    yield Path(str(code_file("name_usage"))), generate_name_usage(map(table, ("urdf", "sdf")))
-    yield Path(str(code_file("mjcf_name_usage"))), generate_name_usage([table("mjcf")])
-
-
-def stale() -> list[Path]:
-    """The files that are not up to date with the facts."""
-    return [file for file, text in generated() if not file.is_file() or file.read_text(encoding="utf-8") != text]
-
-
-def main(arguments: Sequence[str]) -> int:
-    """Write all files, or check them; the exit code."""
-    if "--check" in arguments:
-        for file in (files := stale()):
-            sys.stderr.write(f"{file}: not what the facts say; run python -m twinform.schemas.generate\n")
-        return 1 if files else 0
-    write_all_atomically(dict(generated()))
-    return 0
+                yield schema_file(name, version, xsd), generate_schema(facts, version, xsd)
+        yield code_file(f"{name}_text"), generate_text_writer(facts)
+    yield code_file("name_usage"), generate_name_usage(map(table, ("urdf", "sdf")))
+    yield code_file("mjcf_name_usage"), generate_name_usage([table("mjcf")])
 
 
 _NUMBERS = frozenset({"double", "vector2d", "vector3", "quaternion", "color", "color4", "pose"})
@@ -132,7 +119,3 @@ def _elements(facts: Table) -> Iterator[tuple[str, str | None, Fact]]:
             inner = facts.resolve(row)
             yield row.name, row.type or inner.type, inner
             pending.append(inner)
-
-
-if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))

@@ -1,8 +1,5 @@
-"""Makes the table of built-in passes: `python -m twinform.passes.framework.built_in_table FILE [--check]`."""
+"""Makes the table of built-in passes from the entry points of the package."""
 
-import sys
-
-from twinform.diagnostics.generated_files import main
 from twinform.passes.framework.pass_registry import HOME, OWN, registered_passes
 
 _HEAD = '''\
@@ -21,7 +18,3 @@ def built_in_table() -> str:
     """The module with the table, from the entry points of this package as it is installed."""
     ours = [each for each in registered_passes().values() if each.owner == OWN]
     return "".join([_HEAD, *(f'    "{each.name}": "{each.entry.value.removeprefix(HOME)}",\n' for each in ours), "}\n"])
-
-
-if __name__ == "__main__":
-    sys.exit(main(built_in_table(), sys.argv[1:]))

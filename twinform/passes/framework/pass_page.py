@@ -1,25 +1,15 @@
-"""Generator of the reference page of passes: `python -m twinform.passes.framework.passes_page FILE [--check]`."""
+"""The page of a pass: its docstring and its options, as `passes` and the reference show them."""
 
-import sys
 from collections.abc import Iterator
 from enum import Enum
 from inspect import cleandoc
 from types import NoneType, UnionType
 from typing import Annotated, Literal, NamedTuple, Union, cast, get_args, get_origin
 
-from twinform.diagnostics.generated_files import main
 from twinform.passes.framework.pass_base import Pass, option_name
 from twinform.passes.framework.pass_options import option_value
-from twinform.passes.framework.pass_registry import OWN, registered_passes
 from twinform.passes.framework.syntax import Value, print_value
 
-_INTRODUCTION = """\
-# Passes
-
-Steps from IR to IR, sorted by name. `twinform passes NAME` prints one page, and also those of passes from other
-packages. A pipeline is text, such as `check-inertia,fill-limits{effort=100}`; quote it, as shells give braces a
-meaning.
-"""
 _WORDS: dict[object, str] = {str: "text", float: "number", int: "whole number", bool: "true or false"}
 
 
@@ -77,23 +67,3 @@ def _words(annotation: object) -> str:
     if isinstance(annotation, type) and issubclass(annotation, Enum):
         return " or ".join(str(each.value) for each in annotation)
     return _WORDS.get(cast("object", annotation), "text")
-
-
-def passes_page() -> str:
-    """The reference page of the built-in passes in Markdown."""
-    ours = [each.load() for each in registered_passes().values() if each.owner == OWN]
-    return "\n".join([_INTRODUCTION, *map(_chapter, ours)])
-
-
-def _chapter(kind: type[Pass]) -> str:
-    parts = [f"## {kind.name}", description(kind)]
-    rows = [f"| `{each.name}` | {each.type} | {each.default} | {each.text} |" for each in options(kind)]
-    if rows:
-        parts.append("\n".join(["| option | type | default | meaning |", "|---|---|---|---|", *rows]))
-    if kind.example:
-        parts.append(f"Example: `{kind.example}`")
-    return "\n\n".join(parts) + "\n"
-
-
-if __name__ == "__main__":
-    sys.exit(main(passes_page(), sys.argv[1:]))

@@ -1,10 +1,8 @@
-"""Makes the table of what versions lack: `python -m twinform.passes.sdf_versions.lacking_table FILE [--check]`."""
+"""Makes the table of what versions of SDF lack from the facts tables."""
 
-import sys
 from collections.abc import Iterable, Iterator, Mapping
 from textwrap import fill
 
-from twinform.diagnostics.generated_files import main
 from twinform.ir import Document, Node, Pose
 from twinform.ir.record import fields_of
 from twinform.ir.rewrite import RARE, classes_in
@@ -120,7 +118,3 @@ def _of_kind(kinds: _Kinds, span: VersionSpan, kind: str) -> _Kinds:
     """The classes of one kind among the nodes that a field may hold."""
     every = _classes_in(kinds, span.rows[0][2].place or "")
     return frozenset(each for each in every if fields_of(each)["kind"].default == kind)
-
-
-if __name__ == "__main__":
-    sys.exit(main(lacking_table(), sys.argv[1:]))

@@ -1,5 +1,5 @@
+from generators.plugins_page import plugins_page
 from twinform.passes.plugins.catalog import sensors, systems
-from twinform.passes.plugins.plugins_page import plugins_page
 
 
 def test_everything_in_the_catalog_is_on_the_page() -> None:

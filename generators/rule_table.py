@@ -1,13 +1,7 @@
-"""Makes the table of built-in rules from the heads of their files.
-
-`python -m twinform.diagnostics.rule_table FILE [--check]` writes or checks it.
-"""
-
-import sys
+"""Makes the table of built-in rules from the heads of their files."""
 
 from twinform.diagnostics.built_in_rule import read_head, rule_names
 from twinform.diagnostics.diagnostic import GROUPS, Safety, Severity
-from twinform.diagnostics.generated_files import main
 
 _BEGINNING = '''\
 """The built-in rules. The page of each is in the file beside this one that has its name.
@@ -61,7 +55,3 @@ def rule_line(name: str, head: dict[str, str]) -> str:
     start, inside = f"{name.upper().replace('-', '_')} = rule(", f'"{name}", {_SEVERITIES[head["severity"]]}{options}'
     line = f"{start}{inside})\n"
     return line if len(line) <= _LONGEST else f"{start}\n    {inside}\n)\n"
-
-
-if __name__ == "__main__":
-    sys.exit(main(rule_table(), sys.argv[1:]))

@@ -1,13 +1,11 @@
-"""The reference page of the commands: `python -m twinform.cli.commands_page FILE [--check]` writes or checks it."""
+"""Makes the reference page of the commands from their help."""
 
-import sys
 from collections.abc import Iterator
 
 import click
 
 from twinform.cli import main as program
 from twinform.cli.command import Command
-from twinform.diagnostics.generated_files import main
 
 _INTRODUCTION = """\
 # Commands
@@ -53,7 +51,3 @@ def _plain(text: str) -> str:
 
 def _cell(text: str) -> str:
     return " ".join(text.split()).replace("|", "\\|").replace("<", "&lt;")
-
-
-if __name__ == "__main__":
-    sys.exit(main(commands_page(), sys.argv[1:]))

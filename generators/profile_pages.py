@@ -1,9 +1,7 @@
-"""Generator of the reference pages of profiles: `python -m twinform.profiles.profile_pages FOLDER [--check]`."""
+"""Makes the reference pages of profiles from their tables."""
 
-import sys
 from collections.abc import Iterator
 
-from twinform.diagnostics.generated_files import main_of_folder
 from twinform.profiles.features import shown_by
 from twinform.profiles.profile import PORTABLE, Profile, ProfileRow, all_rows, load, names, releases_of
 from twinform.profiles.reads_tables import Demand, PlaceStep, demands_by_release
@@ -141,7 +139,3 @@ def _sentence(text: str) -> str:
 
 def _escape(text: str) -> str:
     return text.replace("|", "\\|")
-
-
-if __name__ == "__main__":
-    sys.exit(main_of_folder(pages(), sys.argv[1:]))
