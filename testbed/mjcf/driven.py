@@ -1,7 +1,8 @@
 """Robots that fall and are driven for some seconds, in DART with SDF and in MuJoCo with our MJCF of it.
 
 Both engines get the same steps of time, the same gravity, and the same forces on joints, which swing as a sine. MJCF
-has no word for the greatest speed of a joint, so that DART gets none either.
+has no word for the greatest speed of a joint, so that DART gets none either, and DART knows no rotors, so that MuJoCo
+gets none.
 """
 
 import importlib
@@ -85,8 +86,7 @@ def prepared(sdf: str, file: Path, paths: Sequence[Path] = (), *, on_ground: boo
     """
     file.parent.mkdir(parents=True, exist_ok=True)
     file.write_bytes(_without(sdf.encode(), _SPEED))
-    mjcf = without_meshes(twinform.convert(file, to="mjcf", paths=paths).text)
-    bare = Setup(file, mjcf, {}, None, tuple(paths))
+    bare = Setup(file, etree.tostring(_mjcf(file, paths), encoding="unicode"), {}, None, tuple(paths))
     still = _in_dart(bare, STEP, 0)
     if not still.done:
         raise CannotBeDrivenError(f"DART: {still.outcome}")
@@ -104,7 +104,7 @@ def without_constraints(setup: Setup, paths: Sequence[Path]) -> Setup:
     """The robot without limits and friction of joints, mimics, loops, and all that `_CONSTRAINTS` lists."""
     file = setup.sdf.with_suffix(".free.sdf")
     file.write_bytes(_without(setup.sdf.read_bytes(), _CONSTRAINTS))
-    mjcf = etree.fromstring(without_meshes(twinform.convert(file, to="mjcf", paths=paths).text).encode())
+    mjcf = _mjcf(file, paths)
     for section in mjcf.findall("equality"):
         mjcf.remove(section)
     return replace(setup, sdf=file, mjcf=etree.tostring(mjcf, encoding="unicode"))
@@ -128,6 +128,14 @@ def driven(setup: Setup, seconds: float = SECONDS) -> Driven:
         len(setup.forces), apart(start, ends), apart(ends, ours), apart(ends, _ends(finer)), apart(ours, ours_finer),
         apart(ours, ours_stiff) if setup.ground is not None else 0.0, _reaches_limit(dart),
     )  # fmt: skip
+
+
+def _mjcf(sdf: Path, paths: Sequence[Path]) -> Any:
+    """The tree of our MJCF without meshes, and without the inertia of rotors, which DART does not read."""
+    mjcf = etree.fromstring(without_meshes(twinform.convert(sdf, to="mjcf", paths=paths).text).encode())
+    for joint in mjcf.iterfind(".//joint[@armature]"):
+        del joint.attrib["armature"]
+    return mjcf
 
 
 def _without(text: bytes, parts: Iterable[tuple[str, str]]) -> bytes:
