@@ -57,8 +57,9 @@ def command(
 
     One page: the 3D view, the tree, findings with their lines, what becomes of each part in the other format, numbers,
     masses and inertias; with B what differs and by how much. It asks for nothing from elsewhere. A and B are URDF,
-    SDF, xacro or JSON files; - is standard input. Arguments of xacro are written NAME:=VALUE. Exit code: 0 without
-    errors, 1 where a file has errors, which are in the report, 2 where one could not be read: then there is none.
+    SDF, MJCF, xacro or JSON files; - is standard input. Arguments of xacro are written NAME:=VALUE. Exit code: 0
+    without errors, 1 where a file has errors, which are in the report, 2 where one could not be read: then there is
+    none.
     """
     sources, arguments = inputs(words)
     if len(sources) > _MOST:

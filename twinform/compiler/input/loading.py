@@ -253,7 +253,7 @@ def _at_its_text(finding: Diagnostic, texts: Mapping[str, Location]) -> Diagnost
 
 
 def load(source: str | Path, **options: Unpack[FileOptions]) -> Document:
-    """Read the document of a file: URDF, SDF, xacro, or JSON of the IR.
+    """Read the document of a file: URDF, SDF, MJCF, xacro, or JSON of the IR.
 
     Example:
         >>> robot = twinform.load("examples/rover.urdf").models[0]
