@@ -3,14 +3,16 @@
 What stands in the file always counts. A carrier fills what is open, and gives names, frames and notations back.
 """
 
-from collections.abc import Collection, Iterable
+from collections.abc import Iterable
 from typing import TypeVar
 
 from twinform.compiler.input.mjcf.carried_texts import CarriedText, nodes_of, report_stale
 from twinform.compiler.input.mjcf.joined_joints import join_joints
+from twinform.compiler.input.mjcf.merge_parts import merge_parts
 from twinform.compiler.input.mjcf.one_model import one_model
-from twinform.compiler.input.mjcf.renamed_parts import name_in_file, renamed_parts
-from twinform.compiler.input.mjcf.restore_contacts import kept_apart, settle_contacts
+from twinform.compiler.input.mjcf.renamed_parts import renamed_parts
+from twinform.compiler.input.mjcf.restore_contacts import settle_contacts
+from twinform.compiler.input.mjcf.restore_loops import is_loop, loops_back
 from twinform.compiler.input.mjcf.restore_sensors import (
     restored_settings,
     sensors_back,
@@ -20,13 +22,12 @@ from twinform.compiler.input.mjcf.restore_sensors import (
 from twinform.compiler.input.mjcf.spellings import Spellings
 from twinform.compiler.input.mjcf.usual_remainders import without_assets, without_usual
 from twinform.diagnostics import DiagnosticSink
-from twinform.ir import Document, Format, Frame, Joint, Link, Model, Node, Opaque, Pose, World, replace_fields, rewrite
+from twinform.ir import Document, Format, Frame, Joint, Link, Model, Node, Opaque, Pose, World, replace_fields
 from twinform.ir.element import Namespaces
 from twinform.ir.frames import MODEL, WORLD, FrameError, FrameGraph
 from twinform.ir.scopes import scoped_models
 from twinform.passes.carriers.annotations import (
     FROM,
-    MADE_NAME,
     came_from,
     find_annotation,
     is_synthesized,
@@ -36,11 +37,10 @@ from twinform.passes.carriers.annotations import (
 )
 from twinform.passes.carriers.carriers import NAMESPACE
 from twinform.passes.carriers.carriers import PREFIX as TF
-from twinform.passes.carriers.mjcf_texts import ATTACHED, DOCUMENT, LOOP, PREFIXES, SEVERAL
-from twinform.passes.carriers.partial_nodes import REST, WRITTEN, Merging, is_rest, written_name, written_names
+from twinform.passes.carriers.mjcf_texts import ATTACHED, DOCUMENT, PREFIXES, SEVERAL
+from twinform.passes.carriers.partial_nodes import WRITTEN, Merging, is_rest, written_names
 from twinform.passes.legalise.nested_models import NameScopes, RestoreNested
 from twinform.passes.legalise.to_mjcf.rotors import with_rotors
-from twinform.passes.legalise.to_mjcf.writing_context import fixed_joint_name
 from twinform.passes.legalise.to_sdf.restore_frames import RestoreFrames
 from twinform.passes.sdf_versions import change_version, lower_meaning
 from twinform.passes.sdf_versions.set_version import SetVersion
@@ -58,86 +58,11 @@ def merge_texts(document: Document, texts: tuple[CarriedText, ...], root: XmlEle
         return document
     try:
         if not any(each.kind == DOCUMENT for each in texts):
-            return _with_parts(document, texts, root, sink)
+            return merge_parts(document, texts, root, sink)
         return _Merged(document, texts, root, sink).document()
     except FrameError as error:  # an edit has left frames without what they were in
         error.report(sink)
         return document
-
-
-def _with_parts(document: Document, texts: tuple[CarriedText, ...], root: XmlElement, sink: DiagnosticSink) -> Document:
-    """A document of MJCF with what carriers hold of its links and joints.
-
-    They are those of a file that was attached, or of what somebody has added to a file of SDF that was made of MJCF.
-    """
-    merging = Merging(Spellings(root))
-    links = [each for each in nodes_of(texts, "link") if isinstance(each, Link)]
-    joints = [each for each in nodes_of(texts, "joint") if isinstance(each, Joint)]
-    back = sensors_back(links, joints, None, root, sink)
-    others = (each.node for each in texts if each.kind not in {"link", "joint"})
-    nodes = (*back.links, *back.joints, *others)
-    partials = {(type(each), written_name(each)): without_annotation(each, WRITTEN, SEVERAL) for each in nodes}
-    # A fixed joint has no name in the file, and is known by the body that it holds.
-    of_bodies = {each.child: each for each in back.joints if each.type == "fixed"}
-
-    def merged(node: AnyPart) -> AnyPart:
-        partial = partials.get((type(node), node.name))
-        if partial is None or not isinstance(partial, type(node)):
-            return node
-        return merging.merge(node, partial)
-
-    def in_model(model: Model) -> Model:
-        bodies = ((each.name, of_bodies.get(name_in_file(each))) for each in model.links)
-        fixed = {link: partial.copy(child=link) for link, partial in bodies if partial is not None}
-
-        def merged_joint(joint: Joint) -> Joint:
-            if joint.type != "fixed":
-                return merged(joint)
-            return merging.merge(joint, fixed[joint.child]) if joint.child in fixed else joint
-
-        model = without_parts_of_sensors(model, back.parts)
-        told_apart = partials.get((Model, model.name))
-        if isinstance(told_apart, Model) and told_apart.self_collide is False and model.self_collide:
-            model = kept_apart(model, root)
-            if model.self_collide:
-                report_stale(sink, f"links of model {model.name!r} touch in the file", told_apart.source)
-        holds = tuple(_added_holds(model, fixed.values()))
-        if isinstance(told_apart, Model) and told_apart.static is False and model.static:
-            model = _held(model, {each.child for each in holds})
-        return replace_fields(
-            merged(model),
-            links=tuple(merged(each) for each in model.links),
-            joints=(*(merged_joint(each) for each in model.joints), *holds),
-            frames=tuple(merged(each) for each in model.frames),
-        )
-
-    document = rewrite(document, Model, in_model)
-    for stale in merging.stale:
-        report_stale(
-            sink, f"a carrier holds a rest of {type(stale).__name__.lower()} that belongs to nothing", stale.source
-        )
-    return document
-
-
-def _added_holds(model: Model, fixed: Iterable[Joint]) -> Iterable[Joint]:
-    """Yield the joints by which somebody has fixed links of a static model to the world, which need none in MJCF."""
-    held = {each.child for each in model.joints}
-    loose = {each.name for each in model.links if each.name not in held} if model.static else set[str]()
-    return (each for each in fixed if not is_rest(each) and each.child in loose)
-
-
-def _held(model: Model, held: Collection[str | None]) -> Model:
-    """A model that only stands still because fixed joints hold it, of which some are carried."""
-    children = {*held, *(each.child for each in model.joints)}
-    loose = (each for each in model.links if each.name not in children)
-    holds = (
-        Joint.unchecked(
-            name=fixed_joint_name(each.name), type="fixed", parent=WORLD, child=each.name, source=each.source
-        )
-        for each in loose
-    )
-    made = tuple(with_annotation(each, MADE_NAME, each.name) for each in holds)
-    return model.copy(static=None, joints=(*model.joints, *made))
 
 
 def _is_free(root: XmlElement) -> bool:
@@ -191,30 +116,11 @@ class _Merged:
 
     def _with_loops(self, model: Model) -> Model:
         """The model with the joints that closed loops in place of the constraints that do, if these still do."""
-        loops = [each for each in self.joints if find_annotation(each, LOOP) is not None]
-        if not loops:
-            return model
-        joints, beside = {each.name: (each.parent, each.child) for each in model.joints}, self._held_together()
-        opened: set[str] = set()
-        closed: list[Joint] = []
-        for partial in loops:
-            names = written_names(partial)
-            ends = [joints[each] for each in names if each in joints]
-            ends += [beside[each] for each in names if each in beside] if not ends else ()
-            if len(ends) != len(names) or set(ends) != {(partial.parent, partial.child)}:
-                self._stale(f"the loop that joint {partial.name!r} closed is another one now", partial)
-            else:
-                self.spellings.agreed.update((tag, each) for tag in ("connect", "weld") for each in names)
-                opened.update(names)
-                closed.append(without_annotation(partial, LOOP, REST, WRITTEN))
-        self.joints = [each for each in self.joints if find_annotation(each, LOOP) is None]
-        return model.copy(joints=(*(each for each in model.joints if each.name not in opened), *closed))
-
-    def _held_together(self) -> dict[str, tuple[str | None, str | None]]:
-        """The links that each equality holds together, by its name: bodies of several trees have no joint for it."""
-        links = {written: link.name for link in self.links for written in written_names(link)}
-        found = ((each.get("name"), each.get("body1"), each.get("body2")) for each in self.root.iterfind("equality/*"))
-        return {name: (links.get(one or "", one), links.get(other or "", other)) for name, one, other in found if name}
+        links = {written: each.name for each in self.links for written in written_names(each)}
+        back = loops_back(model, filter(is_loop, self.joints), links, self.root, self.sink)
+        self.spellings.agreed.update((tag, each) for tag in ("connect", "weld") for each in back.names)
+        self.joints = [each for each in self.joints if not is_loop(each)]
+        return back.model
 
     def _attached(self, model: Model) -> Model:
         """The model whose frames are attached to what they were, where that still moves with the same link."""

@@ -74,7 +74,8 @@ def _two_axes(context: MjcfContext, body: Body, between: JointBetween, at: Trans
     """Yield two hinges: the first axis turns with the parent, and the second with the child."""
     joint = between.joint
     suffix = CHAINS[joint.type][0]
-    names = (_name(context, between, f"{between.name}_{suffix}"), _name(context, between, between.name))
+    wish = context.wish("joint", scope_of(between.name), source_name(joint))
+    names = (_name(context, between, f"{wish}_{suffix}"), _name(context, between, wish))
     context.written_joints[between.name] = names
     yield _element(context, body, between, at, joint.axis, names[0])
     yield with_kept_joint(_element(context, body, between, at, joint.axis2, names[1]), joint)
@@ -90,8 +91,9 @@ def _screw(context: MjcfContext, body: Body, between: JointBetween, at: Transfor
         context.sink.report(rules.JOINT_TYPE_UNSUPPORTED, message, joint.location, found="screw", help=help_)
         return
     suffix = CHAINS["screw"][0]
-    slide, turn = _name(context, between, f"{between.name}_{suffix}"), _name(context, between, between.name)
-    context.written_joints[between.name] = (turn,)
+    wish = context.wish("joint", scope_of(between.name), source_name(joint))
+    slide, turn = _name(context, between, f"{wish}_{suffix}"), _name(context, between, wish)
+    context.written_joints[between.name], context.written_slides[between.name] = (turn,), slide
     along = Axis.unchecked(xyz=joint.axis.xyz, expressed_in=joint.axis.expressed_in) if joint.axis else None
     yield _element(context, body, between, at, along, slide, kind="slide")
     yield with_kept_joint(_element(context, body, between, at, joint.axis, turn), joint)

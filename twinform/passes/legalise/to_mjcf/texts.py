@@ -36,7 +36,17 @@ from twinform.passes.carriers.annotations import (
     with_annotation,
 )
 from twinform.passes.carriers.carriers import NAMESPACE, bits_of_ours, is_carrier, is_ours, without_parts
-from twinform.passes.carriers.mjcf_texts import DOCUMENT, SEVERAL, SHAPE_OF, bare_xml, text_element, text_name, xml_data
+from twinform.passes.carriers.joint_chains import CHAINS
+from twinform.passes.carriers.mjcf_texts import (
+    DOCUMENT,
+    LOOP,
+    SEVERAL,
+    SHAPE_OF,
+    bare_xml,
+    text_element,
+    text_name,
+    xml_data,
+)
 from twinform.passes.carriers.partial_nodes import REST, WRITTEN, Left, is_bare, remainder
 from twinform.passes.legalise.to_mjcf.contact_plan import MASKS
 from twinform.passes.legalise.to_mjcf.friction import without_friction
@@ -57,6 +67,8 @@ _GROUPS = frozenset({"axis", "axis2", "limit", "dynamics", "surface"})
 """Elements that only group others: what is in them counts, and not they themselves."""
 _MASKS = frozenset(f"contact/{each}" for each in MASKS)
 _MOVING = frozenset({"joint", "freejoint"})
+_OF_CONSTRAINTS = frozenset({"ball", "fixed"})
+"""The types of joints that constraints are read as."""
 _ALWAYS_THE_FIRST = frozenset(each for each in versions_of("sdf") if parse_version(each) < (1, 7))
 """The versions of SDF in which the canonical link cannot be named."""
 
@@ -105,23 +117,25 @@ class _Texts:
             if each.name not in hidden
         ]
         joints = [each.copy(child=None) if each.child in hidden else each for each in model.joints]
-        joints = [_as_mjcf_has_it(each) for each in joints if each.name not in self.file.closing]
+        joints = [_as_mjcf_has_it(each) for each in joints if not self._is_constraint(each)]
         is_told_apart = isinstance(self.context.holder, Model) and self.context.contacts.is_told_apart
         model = model.copy(self_collide=False if is_told_apart else None, static=self._static_beside(model))
         for kind, parts in (("model", (model,)), ("link", links), ("joint", joints)):
             for each in parts:
                 self.file.part = each
                 left = remainder(without_parts(each, _is_of_mjcf), self._said_beside, self._notes_beside)
-                if left is not None and is_bare(self._without_what_names(left, each)) and not _tells_of_uris(left):
+                if left is not None and self._is_needless(left, each):
                     left = None
                 if isinstance(left, Joint):
-                    left = left.copy(child=self._body_of(left.child))
+                    left = left.copy(parent=self._body_of(left.parent), child=self._body_of(left.child))
                 if each is model and self._is_model_of_several_trees:
                     left = with_annotation(left or Model.unchecked(name=model.name), SEVERAL)
                 if left is not None:
-                    name = next((other for other in self.file.other_names(each) if other != WORLD), each.name)
-                    # Of a fixed joint the file has no name that an edit could have changed.
-                    own = _own_name(each) if isinstance(each, Joint) and each.type == "fixed" else name
+                    names = [other for other in self.file.other_names(each) if other != WORLD]
+                    name = names[0] if len(names) == 1 else each.name
+                    # Of these joints the file has no name, or several.
+                    is_known = isinstance(each, Joint) and (each.type == "fixed" or len(names) > 1)
+                    own = _own_name(each) if is_known else name
                     self._add_text(kind, name, left.copy(name=own), each)
 
     @property
@@ -142,6 +156,16 @@ class _Texts:
     def _body_of(self, link: str | None) -> str | None:
         """The name of the body of a link, by which a joint without a name of its own is known."""
         return self.context.written_bodies.get(link or "", link)
+
+    def _is_constraint(self, joint: Joint) -> bool:
+        """Whether a joint is a constraint in MJCF, and is the joint that such a constraint is read as."""
+        is_closing = joint.name in self.file.closing
+        return is_closing and joint.type in _OF_CONSTRAINTS and not (joint.axis or joint.sensors)
+
+    def _is_needless(self, left: Node, node: Node) -> bool:
+        """Whether what is left of a node says nothing: names and notes alone that tell of no URI and no chain."""
+        is_chain = isinstance(node, Joint) and node.type in CHAINS and node.type != "ball"
+        return is_bare(self._without_what_names(left, node)) and not (is_chain or _tells_of_uris(left))
 
     def _without_what_names(self, left: Node, node: Node) -> Node:
         """What is left of a node, without what a fixed joint is known by if it is read with the name that it has."""
@@ -193,11 +217,21 @@ class _Texts:
             self.context.unnamed.discard(("geom", self.file.geom_name(node) or ""))
             written = [annotation(WRITTEN, attributes={"as": each}) for each in self.file.other_names(node)]
             return (*written, *notes)
+        if isinstance(node, Joint) and (node.name in self.file.closing or node.type in CHAINS):
+            return tuple(self._notes_of_several(node))
         if isinstance(node, Sensor) and self.what.left_of(node) is not None:
             parts = self.file.parts_of(node)
             self.context.unnamed.difference_update((each.name, each.get("name") or "") for each in parts)
             return tuple(self.spelling.parts(node))
         return ()
+
+    def _notes_of_several(self, joint: Joint) -> Iterable[Opaque]:
+        """The names of the joints or constraints that stand for a joint, and that it closes a loop."""
+        names = self.file.other_names(joint)
+        if joint.name in self.file.closing:
+            yield annotation(LOOP)
+            self.context.unnamed.difference_update((tag, each) for tag in ("connect", "weld") for each in names)
+        yield from (annotation(WRITTEN, attributes={"as": each}) for each in names)
 
     def _add(self, kind: str, name: str, node: Node) -> None:
         """Add the text of a node, unless MJCF says all of it, and enter what it holds into the ledger."""

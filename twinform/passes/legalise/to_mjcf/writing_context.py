@@ -79,6 +79,7 @@ class MjcfContext:
         numbers: how far the numbers behind a name have come, by kind and name.
         written_joints: for each joint, by its scoped name, the names of the MJCF joints that stand for it: none for one
             that is fixed.
+        written_slides: the names of the other MJCF joints that stand for screws.
         written_sites: the names of the sites of frames, by the scoped names of these.
         written_geoms: for each visual or collision, by its identity, the name of its geom.
         unnamed: kinds and names that parts have here alone, since they have none in MJCF.
@@ -102,6 +103,7 @@ class MjcfContext:
     names: dict[str, set[str]] = field(default_factory=dict[str, set[str]])
     written_bodies: dict[str, str] = field(default_factory=dict[str, str])
     written_joints: dict[str, tuple[str, ...]] = field(default_factory=dict[str, tuple[str, ...]])
+    written_slides: dict[str, str] = field(default_factory=dict[str, str])
     written_sites: dict[str, str] = field(default_factory=dict[str, str])
     written_geoms: dict[int, str] = field(default_factory=dict[int, str])
     unnamed: set[tuple[str, str]] = field(default_factory=set[tuple[str, str]])

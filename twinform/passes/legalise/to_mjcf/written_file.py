@@ -11,7 +11,6 @@ from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Collision, Element, Format, Frame, Joint, Light, Link, Model, Node, Sensor, Visual, World
 from twinform.ir.frames import FrameGraph
 from twinform.passes.carriers.annotations import came_from
-from twinform.passes.carriers.joint_chains import CHAINS
 from twinform.passes.carriers.mjcf_texts import Tagged, tagged
 from twinform.passes.legalise.joint_notation import ExpressAxes, ResolveJointEnds
 from twinform.passes.legalise.nested_models import flat_model
@@ -91,7 +90,7 @@ class WrittenFile:
             case Joint():
                 names = context.written_joints.get(node.name) or (node.name,)
                 if node.type == "screw":  # of whose two joints only the one that turns counts for others
-                    names = (f"{node.name}_{CHAINS[node.type][0]}", *names)
+                    names = (context.written_slides.get(node.name, node.name), *names)
             case Frame():
                 names = (context.written_sites.get(node.name, node.name),)
             case _:

@@ -1,0 +1,146 @@
+"""Merges carriers of single links and joints into a document of MJCF: those of a file that was attached, for example.
+
+Others are of what somebody has added to a file of SDF or URDF that was made of MJCF, or has renamed in it.
+"""
+
+from collections.abc import Collection, Iterable, Mapping
+from typing import TypeVar
+
+from twinform.compiler.input.mjcf.carried_texts import CarriedText, nodes_of, report_stale
+from twinform.compiler.input.mjcf.joined_joints import join_joints
+from twinform.compiler.input.mjcf.renamed_parts import name_in_file
+from twinform.compiler.input.mjcf.restore_contacts import kept_apart
+from twinform.compiler.input.mjcf.restore_loops import is_loop, loops_back
+from twinform.compiler.input.mjcf.restore_sensors import sensors_back, without_parts_of_sensors
+from twinform.compiler.input.mjcf.spellings import Spellings
+from twinform.diagnostics import DiagnosticSink
+from twinform.ir import Document, Frame, Joint, Link, Model, Node, replace_fields, rewrite
+from twinform.ir.frames import WORLD
+from twinform.passes.carriers.annotations import MADE_NAME, with_annotation, without_annotation
+from twinform.passes.carriers.mjcf_texts import SEVERAL
+from twinform.passes.carriers.partial_nodes import WRITTEN, Merging, is_rest, written_name, written_names
+from twinform.passes.legalise.to_mjcf.writing_context import fixed_joint_name
+from twinform.schemas import XmlElement
+
+AnyPart = TypeVar("AnyPart", Link, Joint, Frame, Model)
+
+
+def merge_parts(document: Document, texts: tuple[CarriedText, ...], root: XmlElement, sink: DiagnosticSink) -> Document:
+    """A document of MJCF with what carriers hold of its links and joints."""
+    merging = _PartMerging(texts, root, sink)
+    document = rewrite(document, Model, merging.in_model)
+    merging.report_stale()
+    return document
+
+
+class _PartMerging:
+    """Merges the carriers of one file."""
+
+    def __init__(self, texts: tuple[CarriedText, ...], root: XmlElement, sink: DiagnosticSink) -> None:
+        self.root, self.sink = root, sink
+        links = [each for each in nodes_of(texts, "link") if isinstance(each, Link)]
+        joints = [each for each in nodes_of(texts, "joint") if isinstance(each, Joint)]
+        back = sensors_back(links, joints, None, root, sink)
+        self._merging = Merging(Spellings(root))
+        self._parts = back.parts
+        self._loops = [each for each in back.joints if is_loop(each)]
+        self._joints = [each for each in back.joints if not is_loop(each)]
+        # A fixed joint has no name in the file, and is known by the body that it holds.
+        self._of_bodies = {each.child: each for each in self._joints if each.type == "fixed"}
+        self._used = set[int]()
+        others = (each.node for each in texts if each.kind not in {"link", "joint"})
+        alone = (each for each in self._joints if len(written_names(each)) == 1)
+        self._partials = {(type(each), written_name(each)): each for each in (*back.links, *alone, *others)}
+
+    def in_model(self, model: Model) -> Model:
+        """A model with what carriers hold of it and its parts."""
+        bodies = {name_in_file(each): each.name for each in model.links}
+        held = {bodies[body]: each for body, each in self._of_bodies.items() if body is not None and body in bodies}
+        fixed = {link: each.copy(child=link) for link, each in held.items()}
+        self._used.update(map(id, held.values()))
+        names = {each.name for each in model.joints}
+        chains = [each for each in self._joints if not names.isdisjoint(written_names(each))]
+        model = self._joined(without_parts_of_sensors(model, self._parts), chains, bodies)
+        self._used.update(map(id, chains))
+        known = {each.name: each for each in chains if len(written_names(each)) > 1}
+        told = self._partials.get((Model, model.name))
+        if isinstance(told, Model) and told.self_collide is False and model.self_collide:
+            model = kept_apart(model, self.root)
+            if model.self_collide:
+                report_stale(self.sink, f"links of model {model.name!r} touch in the file", told.source)
+        holds = tuple(_added_holds(model, fixed.values()))
+        if isinstance(told, Model) and told.static is False and model.static:
+            model = _held(model, {each.child for each in holds})
+        return replace_fields(
+            self._merged(model),
+            links=tuple(map(self._merged, model.links)),
+            joints=(*(self._merged_joint(each, fixed, known) for each in model.joints), *holds),
+            frames=tuple(map(self._merged, model.frames)),
+        )
+
+    def report_stale(self) -> None:
+        """Report what belongs to nothing in the file."""
+        for each in self._merging.stale:
+            message = f"a carrier holds a rest of {type(each).__name__.lower()} that belongs to nothing"
+            report_stale(self.sink, message, each.source)
+        for each in (*self._partials.values(), *self._loops, *self._of_bodies.values()):
+            if isinstance(each, Link | Joint) and id(each) not in self._used:
+                message = (
+                    f"there is no {type(each).__name__.lower()} {each.name!r} any more, of which a carrier holds a part"
+                )
+                report_stale(self.sink, message, each.source)
+
+    def _joined(self, model: Model, chains: Iterable[Joint], bodies: Mapping[str, str]) -> Model:
+        """A model with one joint for several that stand for it: those of a chain, and constraints of a loop."""
+        found = ((each, bodies.get(each.parent or ""), bodies.get(each.child or "")) for each in self._loops)
+        closed = [(each, parent, child) for each, parent, child in found if parent is not None and child is not None]
+        self._used.update(id(each) for each, _, _ in closed)
+        loops = [each.copy(parent=parent, child=child) for each, parent, child in closed]
+        model, left = join_joints(model, chains)
+        for each in left:
+            report_stale(self.sink, f"joint {each.name!r} is no joint of type {each.type} any more", each.source)
+        back = loops_back(model, loops, bodies, self.root, self.sink)
+        kept = frozenset((tag, name) for tag in ("connect", "weld") for name in back.names)
+        return without_parts_of_sensors(back.model, kept)
+
+    def _merged(self, node: AnyPart) -> AnyPart:
+        partial = self._partials.get((type(node), node.name))
+        if not isinstance(partial, type(node)):
+            return node
+        self._used.add(id(partial))
+        return self._merging.merge(node, _bare(partial))
+
+    def _merged_joint(self, joint: Joint, fixed: Mapping[str, Joint], chains: Mapping[str, Joint]) -> Joint:
+        """A joint with what a carrier holds of it, if it is fixed, or was several by the name that it has now."""
+        partial = fixed.get(joint.child or "") if joint.type == "fixed" else chains.get(joint.name)
+        if partial is None:
+            return joint if joint.type == "fixed" else self._merged(joint)
+        return self._merging.merge(joint, _bare(partial))
+
+
+AnyNode = TypeVar("AnyNode", bound=Node)
+
+
+def _bare(partial: AnyNode) -> AnyNode:
+    return without_annotation(partial, WRITTEN, SEVERAL)
+
+
+def _added_holds(model: Model, fixed: Iterable[Joint]) -> Iterable[Joint]:
+    """Yield the joints by which somebody has fixed links of a static model to the world, which need none in MJCF."""
+    held = {each.child for each in model.joints}
+    loose = {each.name for each in model.links if each.name not in held} if model.static else set[str]()
+    return (each for each in fixed if not is_rest(each) and each.child in loose)
+
+
+def _held(model: Model, held: Collection[str | None]) -> Model:
+    """A model that only stands still because fixed joints hold it, of which some are carried."""
+    children = {*held, *(each.child for each in model.joints)}
+    loose = (each for each in model.links if each.name not in children)
+    holds = (
+        Joint.unchecked(
+            name=fixed_joint_name(each.name), type="fixed", parent=WORLD, child=each.name, source=each.source
+        )
+        for each in loose
+    )
+    made = tuple(with_annotation(each, MADE_NAME, each.name) for each in holds)
+    return model.copy(static=None, joints=(*model.joints, *made))
