@@ -86,14 +86,14 @@ class Discrepancy:
 
 @dataclass(slots=True)
 class NormalFormComparison:
-    """A comparison of two normal forms, with the names of their compare_files."""
+    """A comparison of two normal forms, with the names of their files."""
 
     source: str
     back: str
     _places: dict[XmlElement, int] = field(default_factory=dict[XmlElement, int])
 
-    def compare_files(self, source: NormalPart, back: NormalPart) -> Iterator[Discrepancy]:
-        """Yield the discrepancies between two compare_files."""
+    def roots(self, source: NormalPart, back: NormalPart) -> Iterator[Discrepancy]:
+        """Yield the discrepancies between two whole files."""
         if source.element.tag == back.element.tag:
             yield from self.parts(source, back)
         else:
@@ -203,7 +203,7 @@ class NormalForm:
 
     def compare(self, back: "NormalForm") -> tuple[Discrepancy, ...]:
         """Return the discrepancies of a file that came back from a round trip, in the order of this one."""
-        return tuple(NormalFormComparison(self.file, back.file).compare_files(self.root, back.root))
+        return tuple(NormalFormComparison(self.file, back.file).roots(self.root, back.root))
 
 
 def normal_form(source: str | Path | bytes, *, name: str = "") -> NormalForm:

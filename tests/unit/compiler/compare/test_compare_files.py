@@ -1,12 +1,11 @@
 """Robots of which both files say the same are read once."""
 
-from importlib import import_module
 from pathlib import Path
 from unittest.mock import patch
 
 import twinform
+from twinform.compiler.compare import read_robots
 
-_MODULE = import_module("twinform.compiler.compare.compare_files")  # the package has a function of this name
 _MODEL = '<model name="{0}"><link name="base"><inertial><mass>{1}</mass></inertial></link></model>'
 
 
@@ -17,7 +16,7 @@ def _world(*models: tuple[str, int]) -> bytes:
 
 def test_one_robot_is_built_for_both_files() -> None:
     a, b = _world(("arm", 1), ("leg", 1)), _world(("arm", 1), ("leg", 2))
-    with patch.object(_MODULE, "build_robot", wraps=_MODULE.build_robot) as build:
+    with patch.object(read_robots, "build_robot", wraps=read_robots.build_robot) as build:
         found = twinform.diff(a, b)
     assert [call.args[0].name for call in build.mock_calls] == ["arm", "leg", "leg"]
     assert {each.model for each in found.differences} == {"leg"}
