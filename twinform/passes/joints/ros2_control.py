@@ -17,7 +17,20 @@ GAZEBO = "gz_ros2_control/GazeboSimSystem"
 _SYSTEM = "ros2_control"
 
 
-class MakeRos2Control(Pass):
+class ConvertDrives(Pass):
+    """The base of passes that say in other elements of URDF what drives the joints of a model."""
+
+    def run(self, document: Document, sink: DiagnosticSink) -> Document:
+        """The document with other elements in each model that has something to make them of."""
+        changed = rewrite(document, Model, lambda model: self.convert(model, document.format, sink))
+        return document if changed is document else declare_carriers(changed)
+
+    @abstractmethod
+    def convert(self, model: Model, format_: Format, sink: DiagnosticSink) -> Model:
+        """One model with other elements."""
+
+
+class MakeRos2Control(ConvertDrives):
     """The base of passes that make one `<ros2_control>` system of what drives the joints of a model."""
 
     hardware: str = Field(
@@ -29,15 +42,6 @@ class MakeRos2Control(Pass):
     system: str | None = Field(
         default=None, min_length=1, description="The name of the system; else that of the model with `_system` behind."
     )
-
-    def run(self, document: Document, sink: DiagnosticSink) -> Document:
-        """The document with a system in each model that has something to make it of."""
-        changed = rewrite(document, Model, lambda model: self.convert(model, document.format, sink))
-        return document if changed is document else declare_carriers(changed)
-
-    @abstractmethod
-    def convert(self, model: Model, format_: Format, sink: DiagnosticSink) -> Model:
-        """One model with its system."""
 
 
 def controlled_joints(model: Model, format_: Format) -> dict[str, str]:

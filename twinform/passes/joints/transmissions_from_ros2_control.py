@@ -7,9 +7,8 @@ from typing import ClassVar
 from pydantic import Field
 
 from twinform.diagnostics import DiagnosticSink, Fate, rules
-from twinform.ir import Document, Element, Format, Model, Opaque, rewrite
-from twinform.passes.carriers.carriers import declare_carriers
-from twinform.passes.framework.pass_base import Pass
+from twinform.ir import Element, Format, Model, Opaque
+from twinform.passes.joints.ros2_control import ConvertDrives
 from twinform.passes.joints.transmission import (
     CLASSES,
     PLUGINS,
@@ -29,7 +28,7 @@ from twinform.passes.shared.nodes import unique_name
 _EXPRESSED = frozenset({"hardware", "joint", "transmission"})
 
 
-class TransmissionsFromRos2Control(Pass):
+class TransmissionsFromRos2Control(ConvertDrives):
     """Turn the joints of `<ros2_control>` into transmissions of ROS 1.
 
     Changes models with `<ros2_control>` elements, nested models and those of worlds too; a model of SDF has them in
@@ -52,11 +51,6 @@ class TransmissionsFromRos2Control(Pass):
     example: ClassVar[str] = "transmissions-from-ros2-control{keep=true}"
 
     keep: bool = Field(default=False, description="Whether `<ros2_control>` stays as well, for programs of ROS 2.")
-
-    def run(self, document: Document, sink: DiagnosticSink) -> Document:
-        """The document with transmissions in place of systems."""
-        made = rewrite(document, Model, lambda model: self.convert(model, document.format, sink))
-        return document if made is document else declare_carriers(made)
 
     def convert(self, model: Model, format_: Format, sink: DiagnosticSink) -> Model:
         """One model with transmissions in place of its systems."""
