@@ -7,6 +7,7 @@ from pathlib import Path
 
 import twinform
 from testbed import output_files
+from testbed.corpus.examine import first_error
 from testbed.corpus.files import CorpusFile, Kind
 from testbed.output_files import kept
 from twinform.testing import oracles
@@ -81,8 +82,7 @@ def _judged(file: CorpusFile, direction: Direction, source: EngineRobot | str) -
     try:
         output = _convert(file, direction)
     except twinform.CompileError as error:
-        first = next(diagnostic for diagnostic in error.diagnostics if diagnostic.is_error)
-        return Outcome(file.name, direction, Verdict.REFUSED, f"{first.rule.name}: {first.message}")
+        return Outcome(file.name, direction, Verdict.REFUSED, first_error(error.diagnostics))
     except Exception as error:  # noqa: BLE001 - every other exception is a fault to report
         return Outcome(file.name, direction, Verdict.CRASH, f"{type(error).__name__}: {error}")
     if isinstance(source, str):

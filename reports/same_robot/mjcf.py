@@ -5,10 +5,11 @@ import re
 from reports.harness.known import Known
 from reports.harness.needs import corpus, drake, mujoco
 from reports.harness.sample import Sample
-from reports.harness.section import UNEXPLAINED, Findings, Section
-from reports.same_robot.mjcf_verdicts import Outcome, Verdict, judge
+from reports.harness.section import Findings, Section
+from reports.same_robot.mjcf_verdicts import judge
+from reports.same_robot.reader_verdicts import Outcomes, Verdict, complaints
 from testbed.corpus.files import Kind
-from testbed.markdown import cross_table, first, frequent, grouped, listing, subsection
+from testbed.markdown import subsection
 
 KNOWN = Known.beside(__file__)
 _ABOUT = """\
@@ -28,31 +29,20 @@ have at 1000 kg/m³. URDF says that it has none, and so does our MJCF; with that
 files that MuJoCo, or Drake, refuses before they are converted."""
 _PLACE = re.compile(r"^\S*/\S+: |\S*/(?=[^/\s]+$)")
 """Where a reader found something: a path with a line, or a folder."""
-ODD = frozenset({Verdict.REFUSED, Verdict.DIFFERENT, Verdict.NOT_WRITTEN})
 
 
 def measure(sample: Sample) -> Findings:
     """Write, compile and compare."""
     found, died = sample.lists(judge, sample.models(Kind.URDF, Kind.SDF), seconds=120)
-    found.sort(key=lambda one: (one.kind, one.name))
-    counts = cross_table(["file"], ((one.kind, one.verdict) for one in found), Verdict)
-    odd = grouped(((one.kind, one.verdict, why(one) or UNEXPLAINED), one.name) for one in found if one.verdict in ODD)
-    head = ["file", "verdict", "why", "files", "for example"]
-    listed = listing(head, ((*key, len(names), first(names, 2)) for key, names in odd.items()))
-    before = frequent(((one.kind, _shortened(one.cause)), one.name) for one in found if one.verdict is Verdict.SOURCE)
-    sources = listing(["file", "complaint", "files", "for example"], ((*key, *rest) for key, *rest in before), most=30)
+    found.sort(key=lambda one: (one.ways, one.name))
+    outcomes = Outcomes(found, KNOWN, {"kind": "file"})
+    refused = [((*one.ways, _shortened(one.cause)), one.name) for one in found if one.verdict is Verdict.SOURCE]
     parts = [
-        subsection("What becomes of a file", counts),
-        subsection("What is not the same, and why", listed),
-        subsection("Complaints about the sources", sources),
+        subsection("What becomes of a file", outcomes.counts()),
+        subsection("What is not the same, and why", outcomes.reasons()),
+        subsection("Complaints about the sources", complaints(["file", "complaint", "files"], refused, most=30)),
     ]
-    unexplained = [str(one) for one in found if one.verdict in ODD and not why(one)]
-    return Findings(parts, counts, [*unexplained, *died])
-
-
-def why(one: Outcome) -> str:
-    """Why a robot is not written, not taken or another one; empty where nobody knows."""
-    return KNOWN.why(one.verdict.name.lower(), file=one.name, kind=one.kind, cause=one.cause)
+    return Findings(parts, outcomes.counts(), [*outcomes.unexplained(), *died])
 
 
 def _shortened(cause: str, most: int = 90) -> str:

@@ -4,7 +4,6 @@ import importlib
 import logging
 import re
 from dataclasses import dataclass, replace
-from enum import StrEnum
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +11,9 @@ from lxml import etree
 
 import twinform
 from reports.same_robot.drake_verdicts import cause
+from reports.same_robot.reader_verdicts import Outcome, Verdict
 from testbed import output_files
+from testbed.corpus.examine import first_error
 from testbed.corpus.files import CorpusFile, Kind
 from testbed.engines.readers.meshless import without_meshes as boxed
 from testbed.mjcf.compiled import without_meshes
@@ -30,54 +31,37 @@ _GEOM = re.compile(r"(?<=geom )\S+ specified \S+ and \S+;")
 """What differs from geom to geom in what Drake says of them."""
 
 
-class Verdict(StrEnum):
-    """What became of a file."""
-
-    SAME = "same robot"
-    DIFFERENT = "different"
-    REFUSED = "refused"
-    NOT_WRITTEN = "not written"
-    SOURCE = "source not taken"
-
-
 @dataclass(frozen=True, slots=True)
-class Outcome:
-    """A file, what became of it and why, the largest difference, and what Drake said while it read the MJCF."""
+class DrakeOutcome(Outcome):
+    """What became of a file, the largest difference, and what Drake said while it read the MJCF."""
 
-    name: str
-    kind: str
-    verdict: Verdict
-    cause: str = ""
     deviation: float = 0.0
     of: str = ""
     said: tuple[str, ...] = ()
 
-    def __str__(self) -> str:
-        return f"{self.name}: {self.verdict}: {self.cause}"
 
-
-def judge(file: CorpusFile) -> list[Outcome]:
+def judge(file: CorpusFile) -> list[DrakeOutcome]:
     """What becomes of a URDF, or of an SDF without a world. No exception comes out of it."""
     data = file.path.read_bytes()
     if b"<world" in data:
         return []
-    kind = "URDF" if file.kind is Kind.URDF else "SDF model"
+    kind = ("URDF" if file.kind is Kind.URDF else "SDF model",)
     try:
         source = read_robot(file.path, _DRAKE)
     except oracles.EngineUnreadableError as error:
-        return [Outcome(file.name, kind, Verdict.SOURCE, cause(error.cause))]
+        return [DrakeOutcome(file.name, kind, Verdict.SOURCE, cause(error.cause))]
     try:
         written = twinform.convert(boxed(data) if file.kind is Kind.URDF else file.path, to="mjcf", paths=file.paths)
     except twinform.CompileError as error:
-        return [Outcome(file.name, kind, Verdict.NOT_WRITTEN, next(e for e in error.diagnostics if e.is_error).message)]
+        return [DrakeOutcome(file.name, kind, Verdict.NOT_WRITTEN, first_error(error.diagnostics))]
     made = kept(_OUT / f"{file.name}.xml", _weighed(without_meshes(written.text)))
     limits = {name: {key: end for key, end in ends.items() if key != _UNSAID} for name, ends in source.limits.items()}
     try:
         found = verdict_on(replace(source, limits=limits), (file.path, made), (_DRAKE, _DRAKE))
     except oracles.EngineUnreadableError as error:
-        return [Outcome(file.name, kind, Verdict.REFUSED, cause(error.cause))]
+        return [DrakeOutcome(file.name, kind, Verdict.REFUSED, cause(error.cause))]
     same = Verdict.SAME if found else Verdict.DIFFERENT
-    return [Outcome(file.name, kind, same, found.cause, found.deviation, found.of, _warnings(made))]
+    return [DrakeOutcome(file.name, kind, same, found.cause, found.deviation, found.of, _warnings(made))]
 
 
 def _weighed(text: str) -> str:

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from lxml import etree
 
-from reports.same_robot.mjcf_verdicts import Verdict, shown
+from reports.same_robot.reader_verdicts import Outcome, Verdict, shown
 from testbed.mjcf.compiled import Compiled, UnreadableError, compile_mjcf, compile_urdf
 from testbed.mjcf.differences import differences
 from testbed.mjcf.mesh_robots import MissingFileError, with_files
@@ -27,17 +27,11 @@ class MeshRobot:
 
 
 @dataclass(frozen=True, slots=True)
-class MeshOutcome:
+class MeshOutcome(Outcome):
     """What became of a robot, how many meshes it has in MuJoCo, and how many seconds it took to write it."""
 
-    name: str
-    verdict: Verdict
-    cause: str = ""
     meshes: int = 0
     seconds: float = 0.0
-
-    def __str__(self) -> str:
-        return f"{self.name}: {self.verdict}: {self.cause}"
 
 
 def judge(robot: MeshRobot) -> list[MeshOutcome]:
@@ -48,18 +42,18 @@ def judge(robot: MeshRobot) -> list[MeshOutcome]:
         try:
             text = with_files(robot.path, folder / "meshes")
         except (MissingFileError, etree.XMLSyntaxError, ValueError) as error:
-            return [MeshOutcome(robot.name, Verdict.SOURCE, str(error))]
+            return [MeshOutcome(robot.name, (), Verdict.SOURCE, str(error))]
         started = time.perf_counter()
         refused = _package(robot, folder / "robot")
         seconds = time.perf_counter() - started
         if refused:
-            return [MeshOutcome(robot.name, Verdict.NOT_WRITTEN, refused, seconds=seconds)]
+            return [MeshOutcome(robot.name, (), Verdict.NOT_WRITTEN, refused, seconds=seconds)]
         try:
             written = compile_mjcf((folder / "robot/model.xml").read_text(encoding="utf-8"), str(folder / "robot"))
         except UnreadableError as error:
-            return [MeshOutcome(robot.name, Verdict.REFUSED, str(error), seconds=seconds)]
+            return [MeshOutcome(robot.name, (), Verdict.REFUSED, str(error), seconds=seconds)]
         verdict, cause = _compare(text, written)
-        return [MeshOutcome(robot.name, verdict, cause, int(written.model.nmesh), seconds)]
+        return [MeshOutcome(robot.name, (), verdict, cause, int(written.model.nmesh), seconds)]
 
 
 def _package(robot: MeshRobot, made: Path) -> str:

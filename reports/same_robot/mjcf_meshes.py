@@ -8,11 +8,11 @@ from pathlib import Path
 from reports.harness.known import Known
 from reports.harness.needs import mujoco
 from reports.harness.sample import Sample
-from reports.harness.section import UNEXPLAINED, Findings, Section
+from reports.harness.section import Findings, Section
 from reports.same_robot.mjcf_mesh_verdicts import MeshOutcome, MeshRobot, judge
-from reports.same_robot.mjcf_verdicts import Verdict
+from reports.same_robot.reader_verdicts import Outcomes, Verdict, complaints
 from testbed.installed_robots import installed_folders
-from testbed.markdown import cross_table, first, frequent, grouped, listing, subsection
+from testbed.markdown import cross_table, subsection
 from testbed.mjcf.mesh_robots import mesh_robots
 
 KNOWN = Known.beside(__file__)
@@ -25,7 +25,6 @@ to 1e-5, since MuJoCo has its points in single precision.
 
 *Taken* are robots that MuJoCo loads from the folder and not from the URDF, and *source not taken* those with meshes
 that are nowhere. Of PyBullet's thousand random objects none is in."""
-_ODD = frozenset({Verdict.REFUSED, Verdict.DIFFERENT, Verdict.NOT_WRITTEN})
 _RANDOM = "random_urdfs"
 _NAMES = re.compile(r"'[^']*'|\"[^\"]*\"|[\d.]+(e-?\d+)?")
 
@@ -34,22 +33,17 @@ def measure(sample: Sample) -> Findings:
     """Package, load and compare."""
     found, died = sample.lists(judge, sample.of(_robots(sample.inputs)), seconds=600)
     found.sort(key=lambda one: one.name)
+    outcomes = Outcomes(found, KNOWN, {})
     counts = cross_table(["robots"], (("URDF with meshes", one.verdict) for one in found), Verdict)
-    odd = grouped(((one.verdict, _why(one) or UNEXPLAINED), one.name) for one in found if one.verdict in _ODD)
-    listed = listing(
-        ["verdict", "why", "robots", "for example"], ((*key, len(names), first(names, 2)) for key, names in odd.items())
-    )
     taken = [one for one in found if one.verdict in {Verdict.TAKEN, Verdict.SOURCE}]
-    causes = frequent(((one.verdict, _NAMES.sub("...", one.cause)[:90]), one.name) for one in taken)
-    complaints = listing(
-        ["verdict", "complaint", "robots", "for example"], ((*key, *rest) for key, *rest in causes), most=20
-    )
+    causes = [((one.verdict, _NAMES.sub("...", one.cause)[:90]), one.name) for one in taken]
+    listed = complaints(["verdict", "complaint", "robots"], causes, most=20)
     parts = [
         subsection("What becomes of a robot with meshes", f"{counts}\n\n{_times(found)}"),
-        subsection("Which robots with meshes are not the same, and why", listed),
-        subsection("Complaints of MuJoCo about the sources", complaints),
+        subsection("Which robots with meshes are not the same, and why", outcomes.reasons("robots")),
+        subsection("Complaints of MuJoCo about the sources", listed),
     ]
-    return Findings(parts, counts, [*(str(one) for one in found if one.verdict in _ODD and not _why(one)), *died])
+    return Findings(parts, counts, [*outcomes.unexplained(), *died])
 
 
 def _robots(folders: Sequence[str]) -> list[MeshRobot]:
@@ -61,10 +55,6 @@ def _robots(folders: Sequence[str]) -> list[MeshRobot]:
         for path in mesh_robots(folder)
         if _RANDOM not in path.parts
     ]
-
-
-def _why(one: MeshOutcome) -> str:
-    return KNOWN.why(one.verdict.name.lower(), file=one.name, cause=one.cause)
 
 
 def _times(found: Sequence[MeshOutcome]) -> str:

@@ -12,14 +12,13 @@ from typing import Any
 from lxml import etree
 
 import twinform
+from reports.same_robot.reader_verdicts import shown
 from testbed.mjcf.canonical_models import PACKAGES, load
 from testbed.mjcf.home_trips import came_home
 from testbed.mjcf.of_mjcf import Tree, differences_in_sdf, differences_in_urdf, trees_of, without_rotors
 from twinform.compiler.conversion import Conversion
 from twinform.compiler.request import Language
 
-_MOST = 3
-"""So many differences are told of one file."""
 _ROBOTS = 8
 """So many robots of a world become a URDF each."""
 _MASSLESS = "counts for no mass"
@@ -93,7 +92,7 @@ def judge(file: PackageFile) -> list[Answer]:
     answers: list[Answer] = []
     for question, ask in found.questions():
         causes = _causes(ask)
-        answers.append(Answer(file.name, question, _told(causes), reason_of(causes, found.said)))
+        answers.append(Answer(file.name, question, shown(causes), reason_of(causes, found.said)))
     return answers
 
 
@@ -123,10 +122,6 @@ def _reason_of(cause: str, said: Collection[tuple[str, str]]) -> str:
             found = (text for name, text in said if name == rule and re.search(message, text))
             return next((f"{rule}: {_QUOTED.sub('', text)}" for text in found), "")
     return ""
-
-
-def _told(causes: list[str]) -> str:
-    return "; ".join(causes[:_MOST] + ([f"and {len(causes) - _MOST} more"] if len(causes) > _MOST else []))
 
 
 class _Judge:

@@ -1,9 +1,8 @@
 """What MuJoCo and Drake make of our MJCF of one file; runs in a worker process, since both may end it."""
 
-from dataclasses import dataclass
-from enum import StrEnum
-
 import twinform
+from reports.same_robot.reader_verdicts import Outcome, Verdict, shown
+from testbed.corpus.examine import first_error
 from testbed.corpus.files import CorpusFile, Kind
 from testbed.engines.readers.meshless import without_meshes as boxed
 from testbed.mjcf.compiled import Compiled, UnreadableError, compile_mjcf, compile_urdf, turn_rotors, without_meshes
@@ -11,32 +10,7 @@ from testbed.mjcf.differences import differences
 from testbed.mjcf.from_drake import UncomparableError, differences_from_drake
 from twinform.testing.oracles import drake
 
-URDF, MODEL, WORLD = "URDF", "SDF model", "SDF world"
-
-
-class Verdict(StrEnum):
-    """What became of a file."""
-
-    SAME = "same robot"
-    ABSENT = "same without `<inertial>`"
-    TAKEN = "taken"
-    DIFFERENT = "different"
-    REFUSED = "refused"
-    NOT_WRITTEN = "not written"
-    SOURCE = "source not taken"
-
-
-@dataclass(frozen=True, slots=True)
-class Outcome:
-    """A file as one of the kinds above, and what became of it; the cause where it is not the same."""
-
-    name: str
-    kind: str
-    verdict: Verdict
-    cause: str = ""
-
-    def __str__(self) -> str:
-        return f"{self.name} as {self.kind}: {self.verdict}: {self.cause}"
+URDF, MODEL, WORLD = ("URDF",), ("SDF model",), ("SDF world",)
 
 
 def judge(file: CorpusFile) -> list[Outcome]:
@@ -92,19 +66,13 @@ def _world(file: CorpusFile) -> Outcome:
     return made if isinstance(made, Outcome) else Outcome(file.name, WORLD, Verdict.TAKEN)
 
 
-def _written(file: CorpusFile, kind: str, text: bytes | None = None) -> Compiled | Outcome:
+def _written(file: CorpusFile, kind: tuple[str], text: bytes | None = None) -> Compiled | Outcome:
     """Our MJCF, compiled without meshes: of a text, or else of the file."""
     try:
         made = twinform.convert(file.path if text is None else text, to="mjcf", paths=file.paths).text
     except twinform.CompileError as error:
-        first = next(found for found in error.diagnostics if found.is_error)
-        return Outcome(file.name, kind, Verdict.NOT_WRITTEN, f"{first.rule.name}: {first.message}")
+        return Outcome(file.name, kind, Verdict.NOT_WRITTEN, first_error(error.diagnostics))
     try:
         return compile_mjcf(without_meshes(made))
     except UnreadableError as error:
         return Outcome(file.name, kind, Verdict.REFUSED, str(error))
-
-
-def shown(found: list[str], most: int = 3) -> str:
-    """The first differences."""
-    return "; ".join(found[:most] + ([f"and {len(found) - most} more"] if len(found) > most else []))

@@ -1,13 +1,13 @@
 """One robot in every version of URDF, before urdfdom and Drake; runs in a worker process, since Drake may end it."""
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
-from enum import StrEnum
 from functools import partial
 from pathlib import Path
 
 import twinform
 from reports.same_robot.drake_verdicts import DRAKE, cause, load
+from reports.same_robot.reader_verdicts import Outcome, Verdict
+from testbed.corpus.examine import first_error
 from testbed.corpus.files import CorpusFile
 from testbed.oracles import urdfdom
 from testbed.output_files import OUT, kept
@@ -24,31 +24,6 @@ _READERS: Mapping[str, tuple[Callable[[Path], tuple[str, ...]], tuple[UrdfVersio
 """The parsers of ROS, with the versions that each of them reads."""
 
 
-class Verdict(StrEnum):
-    """What a reader makes of a robot in another version."""
-
-    TAKEN = "taken"
-    SAME = "same robot"
-    NOT_WRITTEN = "not written"
-    SOURCE = "source not taken"
-    REFUSED = "refused"
-    DIFFERENT = "different"
-
-
-@dataclass(frozen=True, slots=True)
-class Outcome:
-    """A robot in a version, and what a reader makes of it; the cause where it is not taken as the same."""
-
-    name: str
-    version: str
-    reader: str
-    verdict: Verdict
-    cause: str = ""
-
-    def __str__(self) -> str:
-        return f"{self.name} as {self.version}: {self.reader}: {self.verdict}: {self.cause}"
-
-
 def judge(file: CorpusFile) -> list[Outcome]:
     """The robot in every version before every reader; nothing where it has errors. No exception comes out of it."""
     if not twinform.check(file.path, paths=file.paths).accepted:
@@ -62,13 +37,12 @@ def _judged(file: CorpusFile, version: UrdfVersion, drake: Callable[[Path], tupl
     try:
         text = twinform.convert(file.path, to="urdf", urdf_version=version, paths=file.paths).text
     except twinform.CompileError as error:
-        first = next(found for found in error.diagnostics if found.is_error)
-        why = f"{first.rule.name}: {first.message}"
-        yield from (Outcome(file.name, version, name, Verdict.NOT_WRITTEN, why) for name in (*readers, DRAKE))
+        why = first_error(error.diagnostics)
+        yield from (Outcome(file.name, (version, name), Verdict.NOT_WRITTEN, why) for name in (*readers, DRAKE))
         return
     made = kept(_FOLDER / f"{file.name}.{version}.urdf", text)
-    yield from (Outcome(file.name, version, name, *_of_urdfdom(name, file.path, made)) for name in readers)
-    yield Outcome(file.name, version, DRAKE, *drake(made))
+    yield from (Outcome(file.name, (version, name), *_of_urdfdom(name, file.path, made)) for name in readers)
+    yield Outcome(file.name, (version, DRAKE), *drake(made))
 
 
 def _of_urdfdom(name: str, source: Path, made: Path) -> tuple[Verdict, str]:

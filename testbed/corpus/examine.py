@@ -113,6 +113,12 @@ def rules_of(diagnostics: Iterable[Diagnostic]) -> tuple[str, ...]:
     return tuple(dict.fromkeys(diagnostic.rule.name for diagnostic in diagnostics if diagnostic.is_error))
 
 
+def first_error(diagnostics: Iterable[Diagnostic]) -> str:
+    """The first of the errors: its rule, and its message."""
+    first = next(each for each in diagnostics if each.is_error)
+    return f"{first.rule.name}: {first.message}"
+
+
 def without_line(diagnostics: Iterable[Diagnostic]) -> tuple[str, ...]:
     """A broken promise where none of the errors has a line."""
     errors = [diagnostic for diagnostic in diagnostics if diagnostic.is_error]

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from reports.harness.needs import drake, urdfdom, urdfdom_6
-from reports.same_robot.older_urdf import ODD, why
+from reports.same_robot.older_urdf import judged
 from reports.same_robot.other_urdf import judge
 from testbed.corpus.files import CorpusFile, Kind
 from tests.corpus.portions import chunks
@@ -21,4 +21,4 @@ _MISSING = drake() or urdfdom() or urdfdom_6()
 def test_every_version_is_taken_and_the_same_robot(corpus: Path, chunk: str) -> None:
     assert corpus.is_dir()
     found = [outcome for file in _SAMPLE[chunk] for outcome in judge(file)]
-    assert [one for one in found if one.verdict in ODD and not why(one)] == []
+    assert judged(found).unexplained() == []
