@@ -56,10 +56,11 @@ def test_hollow_geoms(tmp_path: Path) -> None:
     _are_the_same(_load(tmp_path, geoms), 1e-9)
 
 
+@pytest.mark.parametrize("compiler", ["", 'fitaabb="true"'])
 @pytest.mark.parametrize("more", ["", 'fitscale="1.5"', 'mass="3"', _SHELL, 'pos="1 2 3" euler="10 20 30"'])
-def test_geoms_that_are_fitted_to_a_mesh(tmp_path: Path, more: str) -> None:
+def test_geoms_that_are_fitted_to_a_mesh(tmp_path: Path, more: str, compiler: str) -> None:
     geoms = [f'<geom type="{kind}" mesh="t" {more}/>' for kind in _SIZES]
-    _are_the_same(_load(tmp_path, geoms), 1e-5)  # MuJoCo has the points of meshes in single precision
+    _are_the_same(_load(tmp_path, geoms, compiler), 1e-5)  # MuJoCo has the points of meshes in single precision
 
 
 @pytest.mark.parametrize("inertia", ["legacy", "exact", "convex", "shell"])
@@ -101,9 +102,18 @@ def test_a_flat_mesh_has_no_mass(tmp_path: Path) -> None:
     assert "unreadable-mesh" in {each.rule.name for each in twinform.check(path).diagnostics}
 
 
-def test_what_cannot_be_measured_is_reported(tmp_path: Path) -> None:
-    path = _load(tmp_path, ['<geom type="box" mesh="t"/>'], 'fitaabb="true"')
-    found = twinform.check(path, paths=[_MESH.parent]).diagnostics
-    assert [each.message for each in found if each.rule.name == "unreadable-mesh"] == [
-        "this geom is a box that only MuJoCo can measure, so that it counts for no mass"
-    ]
+_INERTIAL = '<inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/>'
+
+
+@pytest.mark.parametrize(
+    ("inertial", "message"),
+    [
+        ("", "this geom is a box that only MuJoCo can measure, so that it counts for no mass"),
+        (_INERTIAL, "'missing.obj' is not found, so that it gives its size to no shape"),
+    ],
+)
+def test_what_cannot_be_measured_is_reported(tmp_path: Path, inertial: str, message: str) -> None:
+    path = _load(tmp_path, [f'{inertial}<geom type="box" mesh="t"/>'])
+    path.write_text(path.read_text().replace(str(_MESH), "missing.obj"))
+    found = twinform.check(path).diagnostics
+    assert [each.message for each in found if each.rule.name == "unreadable-mesh"] == [message]

@@ -37,6 +37,9 @@ WORLDBODY = "worldbody"
 SAME_GEOM = "same-geom"
 """The annotation on a visual that is one geom of MJCF with the collision of its name, if both have the same shape."""
 
+FITTED = "fitted"
+"""The annotation on a shape of the size of a mesh, which MuJoCo fits to that."""
+
 
 def annotation(kind: str, text: str | None = None, attributes: Mapping[str, str | None] | None = None) -> Opaque:
     """An annotation; attributes that are None are left out."""

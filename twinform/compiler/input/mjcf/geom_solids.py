@@ -5,21 +5,18 @@ that meshes which are not star-shaped weigh too much; `exact` gives them their s
 `shell` spreads the mass over the surface.
 """
 
-import math
-from collections.abc import Callable, Mapping
 from importlib import import_module
 from importlib.util import find_spec
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from twinform.compiler.input.mjcf.assets import AssetTable
+from twinform.compiler.input.mjcf.fitted_shapes import MeasuredMesh, fit, is_fitted
 from twinform.compiler.input.mjcf.lower_shapes import PlacedShape, lower_shape, mesh_of
 from twinform.compiler.input.mjcf.pieces import Piece, placed_at
 from twinform.compiler.input.mjcf.shell_solids import shell
-from twinform.diagnostics import DiagnosticSink, rules
-from twinform.ir import Box, Capsule, Cylinder, Ellipsoid, Mesh, Sphere
-from twinform.ir.geometry import Shape
-from twinform.ir.solids import NOTHING, Solid, placed, principal_axes, solid
-from twinform.ir.transform import Transform
+from twinform.diagnostics import DiagnosticSink, Rule, rules
+from twinform.ir import Box, Mesh
+from twinform.ir.solids import NOTHING, Solid, placed, solid
 from twinform.passes.shared.mesh_solids import MeshError, Meshes, MeshTriangles
 
 if TYPE_CHECKING:
@@ -30,25 +27,22 @@ if TYPE_CHECKING:
     Faces = NDArray[np.int64]
 
 
-def _with_radius(one: float, other: float) -> float:
-    return (one + other) / 2
-
-
-_FITTED: Mapping[str, Callable[[float, float, float], Shape]] = {
-    "sphere": lambda x, y, z: Sphere.unchecked(radius=(x + y + z) / 3),
-    "capsule": lambda x, y, z: Capsule.unchecked(
-        radius=_with_radius(x, y), length=2 * max(z - _with_radius(x, y) / 2, 0.0)
-    ),
-    "cylinder": lambda x, y, z: Cylinder.unchecked(radius=_with_radius(x, y), length=2 * z),
-    "box": lambda x, y, z: Box.unchecked(size=(2 * x, 2 * y, 2 * z)),
-    "ellipsoid": lambda x, y, z: Ellipsoid.unchecked(radii=(x, y, z)),
-}
-"""What is fitted to a box with three half sides, of which the last one is the longest."""
 _FEWEST = 12
 """The numbers of the four vertices that a mesh needs."""
 _SIZE_OF_FIELD = 4
 """A height field has two half sides, and heights above and below its origin."""
 _LEGACY, _EXACT, _CONVEX, _SHELL = "legacy", "exact", "convex", "shell"
+
+
+class _Use(NamedTuple):
+    """What a mesh is measured for: what comes of one that cannot be read, and the rule for that if it is no error."""
+
+    otherwise: str
+    rule: Rule | None = None
+
+
+_WEIGHED = _Use("counts for no mass")
+_SIZED = _Use("gives its size to no shape", rules.UNREADABLE_MESH)
 
 
 class GeomSolids:
@@ -58,10 +52,11 @@ class GeomSolids:
         self._by_bounds = by_bounds
         self._uncounted: set[tuple[str, str | None]] = set()
         self._unmeasured: set[str | None] = set()
+        self._fitted_to: set[Piece] = set()
         self._assets = assets
         self._meshes = meshes
         self._sink = sink
-        self._measured: dict[Piece, Solid | None] = {}
+        self._measured: dict[Piece, MeasuredMesh | None] = {}
 
     def __call__(self, geom: Piece, density: float) -> Solid | None:
         """Return the geom filled with a density in kg/m^3, in its own frame; None where nothing can be computed."""
@@ -79,7 +74,7 @@ class GeomSolids:
         if not isinstance(shape.shape, Mesh):
             return self._filled(geom, shape, density)
         measured = None if asset is None else self._of_asset(asset)
-        return None if measured is None else placed(_of_density(measured, density), shape.at)
+        return None if measured is None else placed(_of_density(measured.solid, density), shape.at)
 
     def _of_height_field(self, geom: Piece, density: float) -> Solid | None:
         """Return the box that MuJoCo takes for a height field, whatever its elevations, with half of its height."""
@@ -94,8 +89,8 @@ class GeomSolids:
         """Return the mass of a geom that has no shape in SDF: a mesh without file, or what is fitted to a mesh."""
         if geom.peek("type") in {"mesh", "sdf"}:  # a plugin computes only what has no vertices
             measured = self._of_asset(asset)
-            return None if measured is None else _of_density(measured, density)
-        fitted = self._fitted(geom, asset)
+            return None if measured is None else _of_density(measured.solid, density)
+        fitted = self.fitted(geom, _WEIGHED)
         return None if fitted is None else self._filled(geom, fitted, density)
 
     def _filled(self, geom: Piece, shape: PlacedShape, density: float) -> Solid | None:
@@ -103,23 +98,20 @@ class GeomSolids:
         found = fill(shape.shape, density)
         return found and placed(found, shape.at)
 
-    def _fitted(self, geom: Piece, asset: Piece) -> PlacedShape | None:
-        """Return the primitive that MuJoCo fits to the equivalent box of a mesh; None where it is fitted otherwise."""
-        kind, measured = geom.peek("type") or "sphere", None if self._by_bounds else self._of_asset(asset)
-        frame = mesh_of(asset)
-        asset.leave("file", "scale", "refpos", "refquat")  # a document has no place for what is only fitted to
-        if kind not in _FITTED or measured is None or not measured.mass > 0:
+    def fitted(self, geom: Piece, use: _Use = _SIZED) -> PlacedShape | None:
+        """Return the primitive that MuJoCo fits to the mesh of a geom; None where none is, or it cannot be measured."""
+        asset = self._assets.find("mesh", geom.peek("mesh"))
+        if asset is None or not is_fitted(geom):
             return None
-        moments, axes = principal_axes(measured.inertia)
-        ordered = sorted(zip(moments, axes, strict=True), reverse=True)
-        whole = sum(moments)
-        # half the sides of a box with these moments: the shortest first
-        half = [math.sqrt(max(whole - 2 * moment, 0.0) * 1.5 / measured.mass) for moment, _ in ordered]
-        scale = next(iter(geom.peek_numbers("fitscale")), 1.0)
-        (u, v, w) = (axis for _, axis in ordered)
-        columns = (u[0], v[0], w[0], u[1], v[1], w[1], u[2], v[2], w[2])
-        at = Transform(measured.center, columns)
-        return PlacedShape(_FITTED[kind](*(scale * each for each in half)), frame.at.compose(at) if frame else at)
+        self._fitted_to.add(asset)
+        measured, frame = self._of_asset(asset, use), mesh_of(asset)
+        found = None if measured is None else fit(geom, measured, by_bounds=self._by_bounds)
+        return found if found is None or frame is None else found._replace(at=frame.at.compose(found.at))
+
+    def keep_what_is_fitted_to(self) -> None:
+        """Leave the files of meshes in the remainder too, so that these are there whatever becomes of their shapes."""
+        for asset in self._fitted_to:
+            asset.leave("file", "scale")
 
     def _report_uncounted(self, geom: Piece) -> None:
         """Report a geom whose mass is not known, once for each mesh."""
@@ -132,19 +124,19 @@ class GeomSolids:
         hint = "write an <inertial> with the mass of its body"
         self._sink.report(rules.UNREADABLE_MESH, message, geom.location, found=kind, help=hint)
 
-    def _of_asset(self, asset: Piece) -> Solid | None:
-        """Return the mesh of an asset filled with a density of one; one that cannot be read is reported once."""
+    def _of_asset(self, asset: Piece, use: _Use = _WEIGHED) -> MeasuredMesh | None:
+        """Return the mesh of an asset; one that cannot be read is reported once, with what comes of that."""
         if asset not in self._measured:
-            self._measured[asset] = self._measure(asset)
+            self._measured[asset] = self._measure(asset, use)
         return self._measured[asset]
 
-    def _measure(self, asset: Piece) -> Solid | None:
+    def _measure(self, asset: Piece, use: _Use) -> MeasuredMesh | None:
         found = mesh_of(asset)
         mesh = found.shape if found else None
         way = asset.peek("inertia") or _LEGACY
         if not isinstance(mesh, Mesh):
-            return None if asset.has("file") else self._of_vertices(asset, way)
-        triangles, is_hull = self._triangles(asset, mesh)
+            return None if asset.has("file") else self._of_vertices(asset, way, use)
+        triangles, is_hull = self._triangles(asset, mesh, use)
         if triangles is None:
             return None
         if is_hull and way == _EXACT:
@@ -155,21 +147,19 @@ class GeomSolids:
         faces = np.frombuffer(triangles.faces, dtype=np.int64).reshape(-1, 3)
         return _measure_faces(points, faces, way)
 
-    def _of_vertices(self, asset: Piece, way: str) -> Solid | None:
+    def _of_vertices(self, asset: Piece, way: str, use: _Use) -> MeasuredMesh | None:
         """Measure a mesh whose vertices stand in its asset; report that a hull is needed and nothing makes hulls."""
         needed = ("numpy",) if asset.has("face") and way != _CONVEX else ("numpy", "scipy")
         missing = next((each for each in needed if find_spec(each) is None), None)  # which not everybody installs
         if missing is None or not asset.has("vertex"):
             return _measure_vertices(asset, way) if asset.has("vertex") else None
-        message = (
-            f"the mesh {asset.name!r} counts for no mass: {missing}, which measures its vertices, is not installed"
-        )
+        message = f"the mesh {asset.name!r} {use.otherwise}: {missing}, which measures its vertices, is not installed"
         hint = "pip install 'twinform[meshes]', or write an <inertial> with the mass of its body"
         self._sink.report(rules.UNREADABLE_MESH, message, asset.location, found=asset.name, help=hint)
         self._unmeasured.add(asset.name)
         return None
 
-    def _triangles(self, asset: Piece, mesh: Mesh) -> tuple[MeshTriangles | None, bool]:
+    def _triangles(self, asset: Piece, mesh: Mesh, use: _Use) -> tuple[MeshTriangles | None, bool]:
         """Return the triangles of a file, or of the convex hull of its points, and whether it is that hull.
 
         MuJoCo takes the hull if there are no triangles.
@@ -178,9 +168,9 @@ class GeomSolids:
             return self._meshes.triangles(mesh), False
         except MeshError as error:
             found = self._hull(mesh)
-            so = "its mass is that of the convex hull of its points, as in MuJoCo" if found else "it counts for no mass"
+            so = "its mass is that of the convex hull of its points, as in MuJoCo" if found else f"it {use.otherwise}"
             message = f"{error.message}, so that {so}"
-            self._sink.report(error.rule, message, asset.location, found=mesh.uri, help=error.help)
+            self._sink.report(use.rule or error.rule, message, asset.location, found=mesh.uri, help=error.help)
             return found, True
 
     def _hull(self, mesh: Mesh) -> MeshTriangles | None:
@@ -194,7 +184,7 @@ def _of_density(measured: Solid, density: float) -> Solid:
     return Solid(measured.mass * density, measured.center, _times(measured.inertia, density))
 
 
-def _measure_vertices(asset: Piece, way: str) -> Solid | None:
+def _measure_vertices(asset: Piece, way: str) -> MeasuredMesh | None:
     """Measure a mesh whose vertices stand in its asset; without faces it is their convex hull."""
     numbers = asset.peek_numbers("vertex")
     back = placed_at(asset.peek_numbers("refpos"), asset.peek_numbers("refquat")).inverse()
@@ -216,7 +206,12 @@ def _times(inertia: tuple[float, ...], factor: float) -> tuple[float, float, flo
     return xx, yy, zz, xy, xz, yz
 
 
-def _measure_faces(points: "Points", faces: "Faces", way: str) -> Solid | None:
+def _measure_faces(points: "Points", faces: "Faces", way: str) -> MeasuredMesh | None:
+    found = _solid_of_faces(points, faces, way)
+    return None if found is None else MeasuredMesh(found, points.astype(float).tobytes())
+
+
+def _solid_of_faces(points: "Points", faces: "Faces", way: str) -> Solid | None:
     import numpy as np  # noqa: PLC0415 - only meshes need it
 
     corners = points[_hull(points) if way == _CONVEX else faces]

@@ -65,13 +65,12 @@ class FileLowering:
         self.trees = [each for each in self.sections.inside(WORLDBODY) if each.tag == "body"]
         self.owners = Owners(self.trees, self.sections)
         self.assets = AssetTable(self.sections.of("asset"))
-        self.geoms = GeomLowering(
-            self.assets, ContactMasks.of(each for each in root.walk() if each.tag == "geom"), self.keeper
-        )
         settings = MassSettings.of(self.sections.of("compiler"))
         meshes = Meshes(LocalAssets(load_options.search, Path(unexpanded_name(context.file))))
         by_bounds = any(each.peek("fitaabb") == "true" for each in self.sections.of("compiler"))
         solids = GeomSolids(self.assets, meshes, context.sink, by_bounds=by_bounds)
+        masks = ContactMasks.of(each for each in root.walk() if each.tag == "geom")
+        self.geoms = GeomLowering(self.assets, masks, self.keeper, solids)
         bodies = [each for tree in self.trees for each in tree.bodies()]
         self.inertias = {each: body_inertia(each, settings, solids) for each in bodies}
         self.scale = scale_of(settings, [each.solid.mass for each in self.inertias.values()])
@@ -205,6 +204,7 @@ class FileLowering:
     def _left(self, scene: list[Element]) -> dict[str, list[Element]]:
         """Return what no node says of all sections, and is about no tree or several."""
         left: dict[str, list[Element]] = {WORLDBODY: scene} if scene else {}
+        self.geoms.solids.keep_what_is_fitted_to()
         for section in self.sections.all:
             if section.tag == WORLDBODY:
                 section.is_settled = True

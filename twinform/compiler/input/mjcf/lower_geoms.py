@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 from twinform.compiler.input.mjcf.assets import AssetTable
 from twinform.compiler.input.mjcf.contact_masks import Bits, ContactMasks
+from twinform.compiler.input.mjcf.geom_solids import GeomSolids
 from twinform.compiler.input.mjcf.lower_materials import is_invisible, lower_material
 from twinform.compiler.input.mjcf.lower_shapes import PlacedShape, lower_shape
 from twinform.compiler.input.mjcf.names import name_mark, safe_name
@@ -17,6 +18,7 @@ from twinform.compiler.input.mjcf.pieces import Piece, pose_of
 from twinform.compiler.input.mjcf.remainders import RemainderKeeper, holder
 from twinform.ir import Collision, Element, Geometry, Opaque, Pose, Surface, Visual
 from twinform.passes.carriers.annotations import SAME_GEOM, annotation
+from twinform.passes.legalise.to_mjcf.fitted_geoms import fitted_mark
 from twinform.passes.legalise.to_mjcf.friction import (
     TORSIONAL_CONDIM,
     USUAL_CONDIM,
@@ -47,8 +49,9 @@ class _Named(NamedTuple):
 
     @property
     def marks(self) -> tuple[Opaque, ...]:
-        """The annotation of a name that was made, or changed."""
-        return name_mark(self.geom.name, self.name)
+        """The annotations of a name that was made or changed, and of a shape that is fitted to a mesh."""
+        marks, mesh = name_mark(self.geom.name, self.name), self.placed.mesh
+        return marks if mesh is None else (*marks, fitted_mark(self.placed.shape, mesh))
 
     @property
     def pose(self) -> Pose | None:
@@ -67,6 +70,7 @@ class GeomLowering(NamedTuple):
     assets: AssetTable
     masks: ContactMasks
     keeper: RemainderKeeper
+    solids: GeomSolids
 
     def lower(self, body: Piece, link: str) -> LinkShapes:
         """Build the shapes of a body; the masses of its geoms are taken by now."""
@@ -78,7 +82,7 @@ class GeomLowering(NamedTuple):
         visuals: list[Visual] = []
         rest: list[Element] = []
         for geom in geoms:
-            placed = lower_shape(geom, self.assets)
+            placed = lower_shape(geom, self.assets) or self._fitted(geom)
             if placed is None:
                 why = f"SDF has no such shape ({geom.peek('type') or 'sphere'} without a file or size)"
                 rest.append(self.keeper.whole(geom, why=why))
@@ -95,6 +99,13 @@ class GeomLowering(NamedTuple):
                 collisions.append(self._collision(one))
         kept = (holder(*rest),) if rest else ()
         return LinkShapes(tuple(collisions), tuple(visuals), kept)
+
+    def _fitted(self, geom: Piece) -> PlacedShape | None:
+        found = self.solids.fitted(geom)
+        if found is not None:
+            geom.take("type")
+            geom.take("size")  # MuJoCo does not look at it
+        return found
 
     def _is_shown(self, geom: Piece, *, hides: bool) -> bool:
         group = _group(geom)

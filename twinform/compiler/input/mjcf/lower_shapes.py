@@ -16,10 +16,14 @@ from twinform.schemas import format_value
 
 
 class PlacedShape(NamedTuple):
-    """A shape, and where its own frame is in that of the geom."""
+    """A shape, and where its own frame is in that of the geom.
+
+    `mesh` is of a primitive that is fitted to a mesh: where the frame of the mesh file is in that of the shape.
+    """
 
     shape: Shape
     at: Transform = Transform()
+    mesh: Transform | None = None
 
 
 def lower_shape(geom: Piece, assets: AssetTable) -> PlacedShape | None:
@@ -79,12 +83,14 @@ def _mesh(geom: Piece, assets: AssetTable) -> PlacedShape | None:
         return None
     placed = mesh_of(asset)
     if placed is not None:
+        for name in ("file", "scale", "refpos", "refquat"):
+            asset.take(name)
         _take_asset(geom, "mesh", asset)
     return placed
 
 
 def mesh_of(asset: Piece) -> PlacedShape | None:
-    """Take the file, the scale and the reference pose of a mesh; None where no file has it, or it is turned and bent.
+    """Return a mesh with its scale, at its reference pose; None where no file has it, or it is turned and bent.
 
     A vertex v of the file is at scale (R^-1 (v - p)) for the reference pose of p and R.
     """
@@ -93,8 +99,6 @@ def mesh_of(asset: Piece) -> PlacedShape | None:
     reference = placed_at(asset.peek_numbers("refpos"), asset.peek_numbers("refquat"))
     if file is None or (len(set(scale)) > 1 and not reference.is_unturned):
         return None
-    for name in ("file", "scale", "refpos", "refquat"):
-        asset.take(name)
     back = reference.inverse()
     x, y, z = (factor * each for factor, each in zip(scale, back.translation, strict=True))
     factors: Vector3 | None = (scale[0], scale[1], scale[2]) if any(each != 1 for each in scale) else None

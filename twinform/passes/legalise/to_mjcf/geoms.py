@@ -9,7 +9,6 @@ from typing import NamedTuple, TypeVar
 
 from twinform.diagnostics import rules
 from twinform.ir import Collision, Element, Visual
-from twinform.ir.defaults import sizes
 from twinform.ir.geometry import (
     Box,
     Capsule,
@@ -30,6 +29,7 @@ from twinform.passes.legalise.changed_names import source_name
 from twinform.passes.legalise.to_mjcf.assets import height_field, mesh_asset, vector_in
 from twinform.passes.legalise.to_mjcf.contacts import touch_of
 from twinform.passes.legalise.to_mjcf.elements import ENDLESS, GRID, Attributes, Value, make_element, placement
+from twinform.passes.legalise.to_mjcf.fitted_geoms import fitted_mesh, geom_size, without_mesh
 from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements, with_kept
 from twinform.passes.legalise.to_mjcf.materials import look_of, with_known_material
 from twinform.passes.legalise.to_mjcf.said_parts import without_elements
@@ -135,6 +135,8 @@ def _geom(
     at = context.resolve(part.pose, body).compose(shape.at)
     attributes = [("name", name), *shape.attributes, *placement(at), *more]
     element = with_kept(make_element("geom", attributes, (), part.source), part)
+    if any(key == "size" for key, _ in shape.attributes):
+        element = without_mesh(element)
     if (
         context.is_of_mjcf and seen is not None and seen.material is None
     ):  # it was deleted: what is read of MJCF has the colors of its geom
@@ -182,25 +184,16 @@ def _solid(context: MjcfContext, body: Body, shape: Shape, part: Visual | Collis
             at = Pose.unchecked(xyz=vector_in(shape, "pos", (0.0, 0.0, 0.0)))
             return None if name is None else Solid([("type", "hfield"), ("hfield", name)], Transform.from_pose(at))
         case Box() | Sphere() | Ellipsoid() | Cylinder() | Capsule():
-            size = _size(shape)
+            name = _kept(part, "mesh")
+            if name and (mesh := fitted_mesh(part, shape, context.kept_asset("mesh", name))) is not None:
+                return Solid([("type", shape.kind)], mesh)
+            size = geom_size(shape)
             size += tuple(map(float, _kept(part, "size").split()))[len(size) :]  # more than MuJoCo needs
             if min(size) <= 0.0:
                 return "has a size of 0, which MuJoCo refuses"
             return Solid([("type", shape.kind), ("size", size)])
         case _:
             return f"has the shape {shape.kind}, which MJCF does not have"
-
-
-def _size(shape: Box | Sphere | Ellipsoid | Cylinder | Capsule) -> tuple[float, ...]:
-    """The sizes as MJCF has them: half of those of a box, and of the length of a cylinder or capsule."""
-    found = sizes(shape)
-    match shape:
-        case Box():
-            return tuple([length / 2 for length in found])
-        case Cylinder() | Capsule():
-            return (found[0], found[1] / 2)
-        case _:
-            return found
 
 
 def _plane(shape: Plane, kept: Sequence[float]) -> Solid:

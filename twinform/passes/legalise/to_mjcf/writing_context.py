@@ -174,11 +174,19 @@ class MjcfContext:
         return any(each.name == ROOT for holder in holders for each in kept_elements(holder))
 
     @cached_property
-    def colors(self) -> Mapping[str, str]:
-        """The colors of the materials that were read of MJCF and are kept, by their names."""
+    def _kept_assets(self) -> Mapping[tuple[str, str], Element]:
         holders = (self.holder, *(each for _, each in self.models))
         sections = (each for holder in holders for each in kept_elements(holder) if each.name == "asset")
-        return {each.get("name") or "": each.get("rgba") or "" for section in sections for each in section.children}
+        return {(each.name, each.get("name") or ""): each for section in sections for each in section.children}
+
+    def kept_asset(self, kind: str, name: str) -> Element | None:
+        """What is kept of an asset that was read of MJCF."""
+        return self._kept_assets.get((kind, name))
+
+    @cached_property
+    def colors(self) -> Mapping[str, str]:
+        """The colors of the materials that were read of MJCF and are kept, by their names."""
+        return {name: each.get("rgba") or "" for (kind, name), each in self._kept_assets.items() if kind == "material"}
 
     @cached_property
     def materials(self) -> frozenset[str]:
