@@ -24,6 +24,7 @@ from twinform.passes.carriers.carriers import NAMESPACE
 from twinform.passes.carriers.joint_chains import CHAIN, PART
 from twinform.passes.carriers.token_mass import TOKEN_MASS, UNSAID
 from twinform.passes.legalise.changed_names import NAME, SCOPED_NAME
+from twinform.passes.legalise.world_link import OF_WORLD
 from twinform.passes.shared.joint_ends import GEARED
 from twinform.passes.shared.link_shapes import COMPUTED_MASS
 from twinform.passes.shared.replaced_shapes import CAPSULE_END, SHAPE
@@ -255,7 +256,7 @@ def _is_number(word: str) -> bool:
 
 _CHAIN, _PART, _MADE, _GEARED, _URDF = (f"{_OURS}{word}" for word in (CHAIN, PART, SYNTHESIZED, GEARED, "urdf"))
 _END, _SHAPE = f"{_OURS}{CAPSULE_END}", f"{_OURS}{SHAPE}"
-_OLD_NAMES = tuple(f"{_OURS}{word}" for word in (NAME, SCOPED_NAME))
+_OLD_NAMES = tuple(f"{_OURS}{word}" for word in (NAME, SCOPED_NAME, OF_WORLD))
 _UNSAID = f"{_OURS}{UNSAID}"
 _MIMIC = f"{_OURS}{MIMIC}"
 _COMPUTED_MASS = f"{_OURS}{COMPUTED_MASS}"

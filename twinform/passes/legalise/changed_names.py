@@ -220,6 +220,11 @@ def source_name(node: Link | Joint | Frame | Collision | Visual | Light | Sensor
     return _old_name(found) if found and found.get("instead_of") == node.name else node.name or ""
 
 
+def fixed_joint_name(body: str) -> str:
+    """The name that a fixed joint without one has, such as all of MJCF: that of the body that it holds."""
+    return f"{body}_fixed_joint"
+
+
 def with_old_name(node: AnyNode, name: str) -> AnyNode:
     """The node with an annotation of its name, before it is renamed."""
     old: Any = getattr(node, "name", None)

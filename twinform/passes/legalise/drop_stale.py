@@ -36,6 +36,7 @@ _IN_SDF = frozenset(
         "extension",
         "shared",
         "drake",
+        "of-world",
     }
 )
 """What an SDF file holds for the reverse conversion."""

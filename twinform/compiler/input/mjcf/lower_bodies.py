@@ -22,7 +22,7 @@ from twinform.ir import Element, Frame, Joint, Light, Link, Mimic, Opaque, Pose,
 from twinform.ir.frames import WORLD
 from twinform.passes.carriers.annotations import MADE_NAME, annotate_synthesized, with_annotation
 from twinform.passes.carriers.token_mass import TOKEN
-from twinform.passes.legalise.to_mjcf.writing_context import fixed_joint_name
+from twinform.passes.legalise.changed_names import fixed_joint_name
 
 JOINTS = ("joint", "freejoint")
 

@@ -19,7 +19,7 @@ from twinform.ir.frames import WORLD
 from twinform.passes.carriers.annotations import MADE_NAME, with_annotation, without_annotation
 from twinform.passes.carriers.mjcf_texts import SEVERAL
 from twinform.passes.carriers.partial_nodes import WRITTEN, Merging, is_rest, written_name, written_names
-from twinform.passes.legalise.to_mjcf.writing_context import fixed_joint_name
+from twinform.passes.legalise.changed_names import fixed_joint_name
 from twinform.schemas import XmlElement
 
 AnyPart = TypeVar("AnyPart", Link, Joint, Frame, Model)

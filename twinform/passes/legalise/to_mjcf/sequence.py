@@ -55,7 +55,7 @@ def _robot_on_the_world(version: str, requested: Requested, *, mixed: bool) -> I
     from twinform.passes.legalise.changed_names import UniqueNames  # noqa: PLC0415 - see above
     from twinform.passes.legalise.to_sdf.mesh_uris import MeshUris  # noqa: PLC0415 - few conversions go this way
     from twinform.passes.legalise.to_sdf.sequence import to_sdf  # noqa: PLC0415 - many passes
-    from twinform.passes.legalise.to_sdf.world_link import WorldLink  # noqa: PLC0415 - see above
+    from twinform.passes.legalise.world_link import WorldLink  # noqa: PLC0415 - see above
 
     for each in to_sdf(version, requested, mixed_source=mixed):
         match each:

@@ -48,6 +48,7 @@ from twinform.passes.carriers.mjcf_texts import (
     xml_data,
 )
 from twinform.passes.carriers.partial_nodes import REST, WRITTEN, Left, is_bare, remainder
+from twinform.passes.legalise.changed_names import fixed_joint_name
 from twinform.passes.legalise.to_mjcf.contact_plan import MASKS
 from twinform.passes.legalise.to_mjcf.friction import without_friction
 from twinform.passes.legalise.to_mjcf.inertials import weight_of
@@ -56,7 +57,7 @@ from twinform.passes.legalise.to_mjcf.looks import is_seen
 from twinform.passes.legalise.to_mjcf.said_parts import without_elements
 from twinform.passes.legalise.to_mjcf.spelling_notes import SpellingNotes
 from twinform.passes.legalise.to_mjcf.what_is_said import WhatIsSaid
-from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext, fixed_joint_name
+from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext
 from twinform.passes.legalise.to_mjcf.written_file import WrittenFile
 from twinform.passes.sdf_versions import sdf_version_read
 from twinform.schemas import XmlElement, parse_version, versions_of

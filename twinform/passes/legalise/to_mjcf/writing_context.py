@@ -345,11 +345,6 @@ def is_made_name(node: Node, wish: str = "") -> bool:
     return found is not None and name is not None and found.text == name and name.startswith(wish)
 
 
-def fixed_joint_name(body: str) -> str:
-    """The name that a fixed joint, which has none in MJCF, has when the body that it holds is read."""
-    return f"{body}_fixed_joint"
-
-
 def scope_of(name: str) -> str:
     """The prefix of a scoped name: `arm::` of `arm::hand`."""
     return name[: name.rindex(SCOPE) + len(SCOPE)] if SCOPE in name else ""

@@ -29,8 +29,8 @@ from twinform.passes.legalise.to_sdf.note_lumping import NoteLumping
 from twinform.passes.legalise.to_sdf.restore_frames import RestoreFrames
 from twinform.passes.legalise.to_sdf.retarget import RetargetSdf
 from twinform.passes.legalise.to_sdf.unpack_sdf import UnpackSdf
-from twinform.passes.legalise.to_sdf.world_link import WorldLink
 from twinform.passes.legalise.unwritten_masses import UrdfBodies
+from twinform.passes.legalise.world_link import WorldLink
 from twinform.passes.sdf_versions import lower_meaning, lower_version, raise_unversioned
 from twinform.passes.sdf_versions.replace_shapes import FoldCapsules, FoldShapeMeshes
 from twinform.request_options import USUAL, Requested

@@ -36,6 +36,7 @@ from twinform.passes.legalise.to_urdf.share_visuals import ShareVisuals
 from twinform.passes.legalise.to_urdf.unfold_joints import UnfoldJoints
 from twinform.passes.legalise.to_urdf.upgrade_sdf import UpgradeSdf
 from twinform.passes.legalise.unwritten_masses import FillInertials
+from twinform.passes.legalise.world_link import RestoreWorldLink
 from twinform.passes.sdf_versions.replace_shapes import FoldCapsules, FoldShapeMeshes
 from twinform.passes.sdf_versions.spread_imu_noise import GatherImuNoise
 from twinform.request_options import USUAL, Requested, UrdfVersion
@@ -101,6 +102,7 @@ def to_urdf(
         NameShapesForGazebo.unchecked(carriers=carriers),
         RestoreMaterials.unchecked(),
         RestoreShapes.unchecked(),
+        RestoreWorldLink.unchecked(carriers=carriers),  # after shapes, whose made names have that of their link
         RestoreNames.unchecked(to=Format.URDF),
         RestoreLumpedNames.unchecked(),
         UnpackUrdf.unchecked(urdf_version=urdf_version),
