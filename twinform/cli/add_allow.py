@@ -12,8 +12,8 @@ from twinform.cli.model_files import PARAMETERS
 from twinform.cli.outputs import Rewrite
 from twinform.cli.printing import print_line
 from twinform.diagnostics import Diagnostic, Span, TextEdit, rules
-from twinform.diagnostics.plurals import plural
 from twinform.diagnostics.suppressions import parse_suppressions
+from twinform.diagnostics.wording import plural
 from twinform.file_access import Readable
 from twinform.text import SourceText, UndecodableError
 from twinform.text.comments import CommentPlaces, comments

@@ -9,7 +9,7 @@ import click
 from twinform.cli.command import Unusable
 from twinform.cli.flags import group
 from twinform.dataclass import dataclass
-from twinform.diagnostics.plurals import plural
+from twinform.diagnostics.wording import plural
 from twinform.file_access import OutsideError, Readable
 
 if TYPE_CHECKING:

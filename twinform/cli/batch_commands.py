@@ -47,7 +47,7 @@ from twinform.compiler.batch.task import BatchJob
 from twinform.compiler.compare import ComparisonOptions
 from twinform.compiler.input.load_options import FileOptions, ReadingOptions
 from twinform.dataclass import dataclass
-from twinform.diagnostics.plurals import plural
+from twinform.diagnostics.wording import plural
 from twinform.file_access import Readable
 from twinform.passes import Pipeline
 from twinform.profiles import Profile

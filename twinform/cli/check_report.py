@@ -14,9 +14,9 @@ from twinform.cli.command import FINDINGS, UNUSABLE
 from twinform.cli.flags import group
 from twinform.cli.printing import print_document, print_line, show
 from twinform.diagnostics import Diagnostic, Policy, Safety, Severity, rules
-from twinform.diagnostics.plurals import plural
 from twinform.diagnostics.reporters import REPORTERS, FileFindings
 from twinform.diagnostics.reporters.file_findings import cause_of
+from twinform.diagnostics.wording import plural
 
 _WORDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "note"}
 _FOR_PEOPLE = frozenset({"text", "concise"})

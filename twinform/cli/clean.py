@@ -7,7 +7,7 @@ import click
 from twinform.cli.command import Command, Unusable
 from twinform.cli.file_runs import cache_folder
 from twinform.cli.printing import print_line
-from twinform.diagnostics.plurals import plural
+from twinform.diagnostics.wording import plural
 
 EXAMPLES = {
     "Delete what is kept of earlier runs": "twinform clean",

@@ -36,8 +36,8 @@ from twinform.compiler.input.load_options import XACRO
 from twinform.compiler.input.parsing import UnreadableError, read_bytes
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Policy, Safety, Severity
-from twinform.diagnostics.plurals import plural
 from twinform.diagnostics.reporters import FileFindings
+from twinform.diagnostics.wording import plural
 from twinform.passes import FilesPass, PassError, Pipeline
 
 Look = Callable[[str | bytes, str, Mapping[str, bytes]], LoadResult]

@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from twinform.compiler import LoadOptions, read
-from twinform.diagnostics.plurals import plural
+from twinform.diagnostics.wording import plural
 
 if TYPE_CHECKING:
     from twinform.compiler.companions.follow_renames import FollowedFile

@@ -22,8 +22,8 @@ from twinform.compiler.input.parsing import UnreadableError, read_bytes
 from twinform.compiler.input.size_limits import LARGEST, USUAL_LIMITS, Limits
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Location, Severity, rules
-from twinform.diagnostics.plurals import plural
 from twinform.diagnostics.reporters import FileFindings
+from twinform.diagnostics.wording import plural
 from twinform.option import given
 from twinform.text import SourceText
 from twinform.text.formatting import FormatOptions

@@ -27,7 +27,7 @@ from twinform.compiler.packaging.order import Built, Order, PackageDetails, deta
 from twinform.compiler.packaging.package import OccupiedError, Package, write_package
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, Policy
-from twinform.diagnostics.plurals import plural
+from twinform.diagnostics.wording import plural
 from twinform.passes import PassError
 from twinform.passes.plugins.release_names import ReleaseName
 

@@ -23,8 +23,8 @@ from twinform.compiler import CompileError, Conversion, ConversionRequest, LoadO
 from twinform.compiler.input.load_options import XACRO
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, Fate, Ledger, Policy
-from twinform.diagnostics.plurals import plural
 from twinform.diagnostics.reporters import FileFindings, printable
+from twinform.diagnostics.wording import cut, plural
 from twinform.ir import Format
 from twinform.passes import FilesPass, PassError, PassInstrumentation, Pipeline
 from twinform.request_options import Language, RequestOptions
@@ -313,10 +313,6 @@ def _fit(request: ConversionRequest, source: InputSource, load_options: LoadOpti
     return fitted(request, source.content, load_options, name=source.name)
 
 
-_LONGEST = 60
-"""The longest change that is printed in full, in characters."""
-
-
 def run_into(source: InputSource, into: Path | None, base: Path | None, options: Options, outputs: Outputs) -> int:
     """Update a file of the other format with the edits of a source, and return the exit code.
 
@@ -362,8 +358,7 @@ def describe_change(path: Path, change: "TextChange") -> str:
 
 def _shorten(piece: str) -> str:
     """Write a piece of a file in one line, cut if it is long."""
-    words = printable(" ".join(piece.split()))
-    return words if len(words) <= _LONGEST else f"{words[: _LONGEST - 3]}..."
+    return cut(printable(" ".join(piece.split())))
 
 
 def run_split(source: InputSource, to: Target, options: Options, folder: Path, outputs: Outputs) -> int:

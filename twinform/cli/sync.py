@@ -24,7 +24,7 @@ from twinform.compiler.sync_reporters import REPORTERS, SyncedGroup
 from twinform.compiler.syncing import AnotherRobotError, SyncedFile, SyncOptions, SyncState, sync_file
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic
-from twinform.diagnostics.plurals import plural
+from twinform.diagnostics.wording import plural
 from twinform.passes import PassError, Pipeline
 from twinform.request_options import Language
 

@@ -14,7 +14,7 @@ from twinform.cli.inputs import InputSource, format_of_suffix
 from twinform.cli.printing import print_line
 from twinform.compiler.observing import Observation, observed
 from twinform.dataclass import dataclass
-from twinform.diagnostics.plurals import plural
+from twinform.diagnostics.wording import plural
 
 # How long to wait for the system to report a change before looking, since not every file system reports changes.
 _MILLISECONDS = 1000

@@ -20,8 +20,8 @@ from twinform.compiler.read_otherwise import read_otherwise
 from twinform.compiler.request import ConversionRequest
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, Fate, LedgerEntry, rules
-from twinform.diagnostics.plurals import plural
 from twinform.diagnostics.rules import MODEL_NOT_CHOSEN
+from twinform.diagnostics.wording import plural
 from twinform.ir import Document, Format, Joint, walk
 from twinform.passes.joints.transmission import urdf_elements
 from twinform.passes.shared.candidates import candidates

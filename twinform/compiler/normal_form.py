@@ -40,6 +40,7 @@ from twinform.compiler.input.parsing import UnreadableError
 from twinform.compiler.normal_form_parts import TEXT, Key, NormalPart, same, text_of
 from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, Location
+from twinform.diagnostics.wording import cut
 from twinform.passes.carriers.carriers import NAMESPACE
 from twinform.schemas import XmlElement, path_of
 
@@ -146,8 +147,8 @@ class NormalFormComparison:
         where = Location(file, part.element.sourceline or 0, path_of(part.element, self._places))
         if step.startswith("@"):
             text = part.element.get(step[1:])
-            return Side(show(part.values[step]) if text is None else repr(_shorten(text)), where.at(step))
-        return Side(repr(_shorten(text_of(part.element))) if step == TEXT else _start_of(part.element), where)
+            return Side(show(part.values[step]) if text is None else repr(cut(text, _LONGEST)), where.at(step))
+        return Side(repr(cut(text_of(part.element), _LONGEST)) if step == TEXT else _start_of(part.element), where)
 
 
 def _pair_children(source: NormalPart, back: NormalPart) -> dict[Key, Key]:
@@ -175,11 +176,7 @@ def _start_of(element: XmlElement) -> str:
     tag = str(element.tag).rpartition("}")[2]
     attributes = "".join(f' {str(name).rpartition("}")[2]}="{value}"' for name, value in element.items())
     inside = " ".join((element.text or "").split())
-    return _shorten(f"<{tag}{attributes}>{inside}" if inside or len(element) else f"<{tag}{attributes}/>")
-
-
-def _shorten(text: str) -> str:
-    return text if len(text) <= _LONGEST else f"{text[: _LONGEST - 3]}..."
+    return cut(f"<{tag}{attributes}>{inside}" if inside or len(element) else f"<{tag}{attributes}/>", _LONGEST)
 
 
 _FORMATS = {"robot": "urdf", "sdf": "sdf", "mujoco": "mjcf"}

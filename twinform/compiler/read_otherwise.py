@@ -6,7 +6,7 @@ as MJCF has none of this, because everything is written out there.
 
 from collections.abc import Callable, Iterator
 
-from twinform.diagnostics.plurals import plural
+from twinform.diagnostics.wording import plural
 from twinform.ir import Document, Element, Format, Model
 
 

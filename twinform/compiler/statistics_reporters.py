@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import asdict
 
 from twinform.compiler.statistics import Cost, FileStatistics, MeshCost, ModelStatistics, WorldStatistics
-from twinform.diagnostics.plurals import plural
+from twinform.diagnostics.wording import plural
 
 _WIDTH = 12
 

@@ -24,6 +24,7 @@ from typing import (
 
 from twinform.dataclass import LazySignature
 from twinform.diagnostics import NOWHERE, Location, Source
+from twinform.diagnostics.wording import cut
 
 if TYPE_CHECKING:
     from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler, TypeAdapter
@@ -33,7 +34,6 @@ if TYPE_CHECKING:
 
 Values = ParamSpec("Values")
 AnyRecord = TypeVar("AnyRecord", bound="Record")
-_MOST_SHOWN = 60
 
 
 @dataclass_transform(frozen_default=True, kw_only_default=True, eq_default=True, field_specifiers=(field,))
@@ -169,8 +169,7 @@ def _brief(value: object) -> str:
     if isinstance(value, tuple) and value and isinstance(value[0], Record):
         parts = cast("tuple[Record, ...]", value)
         return f"<{len(parts)} {type(parts[0]).__name__}>"
-    text = repr(cast("object", value))
-    return text if len(text) <= _MOST_SHOWN else f"{text[: _MOST_SHOWN - 3]}..."
+    return cut(repr(cast("object", value)))
 
 
 @cache

@@ -6,6 +6,7 @@ from typing import NamedTuple, TypedDict, Unpack
 
 from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, Location, Rule, Severity, nearest_name, rules
+from twinform.diagnostics.wording import cut
 from twinform.ir.versions import Version, parse_version, print_version, versions_of
 from twinform.schemas.facts import Fact
 from twinform.schemas.hints import dialect_of, hint_for_attribute, hint_for_element, hint_for_word, new_holder, words_of
@@ -360,18 +361,16 @@ def repeated(context: Context, element: XmlElement) -> None:
 def invalid_value(context: Context, element: XmlElement, step: str, text: str, expected: str) -> None:
     """Text of the wrong type. `step` is the attribute, or empty for the element's own text."""
     subject = f"{step[1:]!r} of <{element.tag}>" if step else f"<{element.tag}>"
-    shown = text if len(text) <= 60 else text[:57] + "..."
-    message = f"{subject} is {shown!r}; expected {expected}"
+    message = f"{subject} is {cut(text)!r}; expected {expected}"
     context.report(rules.INVALID_VALUE, element, message, step, found=text, expected=expected)
 
 
 def unlisted_value(context: Context, element: XmlElement, step: str, word: str, known: tuple[str, ...]) -> None:
     """A value that is none of those that there are."""
     subject = f"{step[1:]!r} of <{element.tag}>" if step else f"<{element.tag}>"
-    shown = word if len(word) <= 60 else word[:57] + "..."
     expected = f"one of {', '.join(known)}"
     hint = hint_for_word(word, known) if _is_shown(context) else None
-    message = f"{subject} is {shown!r}; expected {expected}"
+    message = f"{subject} is {cut(word)!r}; expected {expected}"
     context.report(rules.INVALID_VALUE, element, message, step, found=word, expected=expected, help=hint)
 
 

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from twinform.compiler.dependencies import Dependency
 from twinform.dataclass import dataclass
-from twinform.diagnostics.plurals import plural
+from twinform.diagnostics.wording import plural
 
 Row = dict[str, object]
 

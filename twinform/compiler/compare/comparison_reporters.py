@@ -8,8 +8,8 @@ from types import MappingProxyType
 from twinform.compiler.compare.comparison import Comparison, Difference, DifferenceSeverity, Side
 from twinform.compiler.input.loading import is_usd
 from twinform.diagnostics import Location
-from twinform.diagnostics.plurals import plural
 from twinform.diagnostics.reporters import printable
+from twinform.diagnostics.wording import plural
 
 Paint = Callable[[str, DifferenceSeverity], str]
 """Gives a word the color of a severity."""

@@ -12,8 +12,8 @@ from typing import Literal
 from twinform.compiler.kinematics import range_of
 from twinform.dataclass import dataclass
 from twinform.diagnostics import NOWHERE, DiagnosticSink, Location
-from twinform.diagnostics.plurals import plural
 from twinform.diagnostics.reporters import printable
+from twinform.diagnostics.wording import plural
 from twinform.ir import Document, Format, Frame, Joint, Mimic, Model, World
 from twinform.ir.defaults import multiplier
 from twinform.ir.frames import MODEL, WORLD, FrameError, FrameGraph

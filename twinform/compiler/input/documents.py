@@ -9,6 +9,7 @@ from twinform.compiler.input.load_options import LoadOptions, LoadResult
 from twinform.compiler.output.emitting import document_tree, located
 from twinform.compiler.output.json import Data, JsonPath, is_array, is_object, json_data
 from twinform.diagnostics import DiagnosticSink, Location, rules
+from twinform.diagnostics.wording import cut
 from twinform.ir import Document, Format, Node
 from twinform.ir.record import field_value
 from twinform.ir.verify import verify
@@ -166,5 +167,4 @@ def _parts(opaque: Iterable[Data]) -> dict[str, tuple[list[Any], list[Any], list
 
 def shown(value: Any) -> str:
     """Return a value as shortened JSON."""
-    text = json.dumps(value)
-    return text if len(text) <= 60 else text[:57] + "..."
+    return cut(json.dumps(value))

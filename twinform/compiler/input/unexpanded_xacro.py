@@ -8,7 +8,7 @@ from lxml import etree
 
 from twinform.compiler.input.parsing import ASIDE
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Location, Rule, Severity, rules
-from twinform.diagnostics.plurals import plural
+from twinform.diagnostics.wording import cut, plural
 from twinform.schemas import XmlElement
 from twinform.schemas.xml import path_of
 
@@ -44,8 +44,7 @@ def report_unexpanded(root: XmlElement, sink: DiagnosticSink) -> None:
     expressions = [each for each in found if not each.is_aside]
     severity = Severity.ERROR if expressions else Severity.WARNING
     expressions = expressions or found
-    text = expressions[0].text if expressions else ELEMENTS
-    shown = text if len(text) <= 60 else text[:57] + "..."
+    shown = cut(expressions[0].text if expressions else ELEMENTS)
     parts = [f"{plural(len(macros), 'element')} of xacro"] if macros else []
     parts += [f"the expressions of {plural(len(expressions), 'element')}, such as {shown!r},"] if expressions else []
     if macros:

@@ -9,7 +9,7 @@ from time import perf_counter
 
 from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink
-from twinform.diagnostics.plurals import plural
+from twinform.diagnostics.wording import plural
 from twinform.ir import Document
 from twinform.ir.changes import ChangeKind, NodeChange, Sizes, changes, count_changes
 from twinform.ir.record import Sourced

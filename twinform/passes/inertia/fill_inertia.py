@@ -7,8 +7,8 @@ from typing import ClassVar, Literal, NamedTuple, Self
 from pydantic import Field, model_validator
 
 from twinform.diagnostics import DiagnosticSink
-from twinform.diagnostics.plurals import plural
 from twinform.diagnostics.rules import FILLED_INERTIA, UNFILLED_INERTIA
+from twinform.diagnostics.wording import plural
 from twinform.ir import Document, Format, Inertial, Link, rewrite
 from twinform.ir.frames import FrameError
 from twinform.ir.solids import Solid, combined, with_mass

@@ -70,7 +70,9 @@ class ModelFiles:
         if root.tag != "mujoco":
             message = f"{file!r} is a <{root.tag}>, and only MJCF can be attached here"
             help_ = f"write it as MJCF: twinform convert {file} --to mjcf" if root.tag == "robot" else None
-            findings.report(rules.UNATTACHED_MODEL, asset, message, "@file", found=file, expected="<mujoco>", help=help_)
+            findings.report(
+                rules.UNATTACHED_MODEL, asset, message, "@file", found=file, expected="<mujoco>", help=help_
+            )
             return None
         return root
 

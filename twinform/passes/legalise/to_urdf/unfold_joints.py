@@ -5,7 +5,7 @@ from functools import partial
 from typing import ClassVar, NamedTuple
 
 from twinform.diagnostics import Fate, rules
-from twinform.diagnostics.plurals import plural
+from twinform.diagnostics.wording import plural
 from twinform.ir import Axis, Dynamics, Format, Joint, JointType, Limit, Link, Mimic, Model, Opaque, Pose, count_parts
 from twinform.ir.defaults import AXIS, UNLIMITED
 from twinform.passes.carriers.annotations import with_annotation
