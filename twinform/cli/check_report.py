@@ -14,11 +14,11 @@ from twinform.cli.command import FINDINGS, UNUSABLE
 from twinform.cli.flags import group
 from twinform.cli.printing import print_document, print_line, show
 from twinform.diagnostics import Diagnostic, Policy, Safety, Severity, rules
+from twinform.diagnostics.diagnostic import WORST_FIRST
 from twinform.diagnostics.reporters import REPORTERS, FileFindings
 from twinform.diagnostics.reporters.file_findings import cause_of
 from twinform.diagnostics.wording import plural
 
-_WORDS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "note"}
 _FOR_PEOPLE = frozenset({"text", "concise"})
 _STREAMED = _FOR_PEOPLE | {"github"}
 """Formats that are printed file by file; the others are one document."""
@@ -173,7 +173,7 @@ class CheckReport:
         return FINDINGS if (self.counts[Severity.ERROR] or excess) and not self.exit.exit_zero else 0
 
     def _summary(self) -> str:
-        found = ", ".join(plural(self.counts[severity], word) for severity, word in _WORDS.items())
+        found = ", ".join(plural(self.counts[each], each.word) for each in WORST_FIRST)
         more = (
             (self.unreadable, "could not be read"),
             (self.waiting, "not checked, for want of arguments or packages"),

@@ -153,7 +153,14 @@ class Severity(IntEnum):
     def __str__(self) -> str:
         return self.name.lower()
 
+    @property
+    def word(self) -> str:
+        """The word for a finding, as people and SARIF say it: error, warning, or note."""
+        return "note" if self is Severity.INFO else str(self)
 
+
+WORST_FIRST = (Severity.ERROR, Severity.WARNING, Severity.INFO)
+"""All severities."""
 GROUPS = (
     "structure",
     "references",

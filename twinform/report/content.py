@@ -1,6 +1,6 @@
 """The content of a report on one file or two, from the modules of the compiler that know each part."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import field, replace
 from pathlib import Path, PurePath
 
@@ -19,6 +19,7 @@ from twinform.compiler.scene import Scene, build_scene
 from twinform.compiler.statistics import FileStatistics, MeshCost, ModelStatistics, measure
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, Ledger, Severity
+from twinform.diagnostics.diagnostic import WORST_FIRST
 from twinform.diagnostics.reporters import FileFindings
 from twinform.ir import Document, Format
 from twinform.passes import PassError
@@ -28,8 +29,6 @@ from twinform.view import NotDrawn, StandaloneView, ViewerMissingError, ViewErro
 
 View = Callable[[Document, Document | None, Comparison | None, SearchPath], StandaloneView]
 """Makes the page of the 3D view."""
-WORDS: Mapping[Severity, str] = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "note"}
-"""The severities, the worst first, and what a report calls them."""
 _NO_VIEW = StandaloneView("")
 
 
@@ -68,7 +67,7 @@ class ReportSubject:
     @property
     def counts(self) -> str:
         """How many errors, warnings and notes there are, in words."""
-        return ", ".join(count(self.count(severity), word) for severity, word in WORDS.items())
+        return ", ".join(count(self.count(each), each.word) for each in WORST_FIRST)
 
 
 @dataclass(frozen=True, slots=True)

@@ -16,11 +16,12 @@ from twinform.compiler.graph import Graph, GraphJoint, GraphNode
 from twinform.compiler.graph.layout import depth_first
 from twinform.compiler.graph.svg import svg
 from twinform.diagnostics import Diagnostic, Severity
+from twinform.diagnostics.diagnostic import WORST_FIRST
 from twinform.diagnostics.reporters.file_findings import Group, grouped
 from twinform.diagnostics.reporters.text import excerpt
 from twinform.ir.motion import spanning_tree
 from twinform.package_files import package_files
-from twinform.report.content import WORDS, Converted, ModelReport, ReportSubject
+from twinform.report.content import Converted, ModelReport, ReportSubject
 from twinform.report.markup import Markup, Part, breakable, count, element, fates, folded, image, join, place, table
 from twinform.report.number_sections import conversion, differences, masses, meshes, reach, statistics
 from twinform.view import NotDrawn
@@ -42,7 +43,7 @@ def _list_findings(subject: ReportSubject, number: int, *, several: bool) -> Mar
     heading = element("h3", subject.name) if several else None
     if not subject.findings.diagnostics:
         return join((heading, element("p", "Nothing was found.")))
-    return join((heading, *(_list_severity(subject, number, severity) for severity in WORDS)))
+    return join((heading, *(_list_severity(subject, number, severity) for severity in WORST_FIRST)))
 
 
 def _list_severity(subject: ReportSubject, number: int, severity: Severity) -> Markup | None:
@@ -50,17 +51,17 @@ def _list_severity(subject: ReportSubject, number: int, severity: Severity) -> M
     if not groups:
         return None
     left = len(groups) - MOST
-    more = element("p", f"and {count(left, f'more {WORDS[severity]}')}: twinform check lists all") if left > 0 else None
+    more = element("p", f"and {count(left, f'more {severity.word}')}: twinform check lists all") if left > 0 else None
     items = (_item(each, subject, _anchor(severity, index, number)) for index, each in enumerate(groups[:MOST]))
-    title = count(subject.count(severity), WORDS[severity])
+    title = count(subject.count(severity), severity.word)
     return folded(
-        title, element("ul", *items, class_="findings"), more, open_=severity > Severity.INFO, class_=WORDS[severity]
+        title, element("ul", *items, class_="findings"), more, open_=severity > Severity.INFO, class_=severity.word
     )
 
 
 def _item(group: Group, subject: ReportSubject, anchor_: str) -> Markup:
     one, others = group
-    where, path, word = one.location, subject.findings.path, WORDS[one.severity]
+    where, path, word = one.location, subject.findings.path, one.severity.word
     times = element("span", f" {len(others) + 1} times", class_="quiet") if others else None
     return element(
         "li",
@@ -106,14 +107,14 @@ def _groups_of(subject: ReportSubject, severity: Severity) -> list[Group]:
 
 def _anchor(severity: Severity, number: int, subject: int = 0) -> str:
     """Name the anchor of a group of findings in the file number `subject`."""
-    return f"{WORDS[severity]}-{'ab'[subject]}{number}"
+    return f"{severity.word}-{'ab'[subject]}{number}"
 
 
 def anchors(subject: ReportSubject) -> Mapping[int, str]:
     """Map the identity of each finding that is listed for the first file to the anchor of its group."""
     return {
         id(finding): _anchor(severity, number)
-        for severity in WORDS
+        for severity in WORST_FIRST
         for number, group in enumerate(_groups_of(subject, severity)[:MOST])
         for finding in (group.first, *group.others)
     }
@@ -201,7 +202,7 @@ def _badge(about: Sequence[Diagnostic], places: Mapping[int, str]) -> Markup | N
         return None
     first = max(about, key=lambda each: each.severity)
     href = f"#{places.get(id(first), 'findings')}"
-    return element("a", count(len(about), "finding"), href=href, class_=f"badge {WORDS[first.severity]}")
+    return element("a", count(len(about), "finding"), href=href, class_=f"badge {first.severity.word}")
 
 
 def _findings_by_node(subject: ReportSubject, graph: Graph) -> Mapping[str, list[Diagnostic]]:

@@ -6,12 +6,11 @@ from pathlib import Path
 from urllib.parse import quote
 
 from twinform.diagnostics.catalog import HOME, more_about, rule_address
-from twinform.diagnostics.diagnostic import Diagnostic, Location, Rule, Safety, Severity
+from twinform.diagnostics.diagnostic import Diagnostic, Location, Rule, Safety
 from twinform.diagnostics.reporters.file_findings import FileFindings, PlacedEdit, placed_edits
 
 _SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
 _FINGERPRINT = "finding/v1"
-_LEVELS = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.INFO: "note"}
 
 
 def sarif(files: Sequence[FileFindings]) -> str:
@@ -46,7 +45,7 @@ def _rule(rule: Rule) -> dict[str, object]:
         "fullDescription": {"text": rule.matters},
         "help": {"text": text, "markdown": markdown},
         **({"helpUri": address} if address else {}),
-        "defaultConfiguration": {"level": _LEVELS[rule.severity]},
+        "defaultConfiguration": {"level": rule.severity.word},
     }
 
 
@@ -57,7 +56,7 @@ def _result(diagnostic: Diagnostic, file: FileFindings, order: dict[str, int], s
     return {
         "ruleId": diagnostic.rule.name,
         "ruleIndex": order[diagnostic.rule.name],
-        "level": _LEVELS[diagnostic.severity],
+        "level": diagnostic.severity.word,
         "message": {"text": message},
         "locations": [_location(diagnostic.location, file.path)],
         "partialFingerprints": {_FINGERPRINT: _fingerprint(diagnostic, file.path, seen)},
