@@ -59,6 +59,10 @@ class Element(Sourced):
         """Return the children of this name, in their order."""
         return [child for child in self.children if child.name == name]
 
+    def exchange(self, child: "Element", new: "Element") -> Self:
+        """Return the element with another one in place of a child."""
+        return self.copy(children=tuple([new if each is child else each for each in self.children]))
+
     def walk(self) -> list[Self]:
         """Return this element and all below it, in document order."""
         # a list: an iterator would be resumed once for each element above the one that it yields

@@ -229,11 +229,7 @@ def set_text(element: Element, path: str, text: str) -> Element:
 
 def replace_child(element: Element, old: Element, new: Element) -> Element:
     """The element with one child in place of another; the child is appended if the other is not there."""
-    if any(child is old for child in element.children):
-        children = tuple(new if child is old else child for child in element.children)
-    else:
-        children = (*element.children, new)
-    return element.copy(children=children)
+    return element.exchange(old, new) if any(child is old for child in element.children) else add_child(element, new)
 
 
 def add_child(element: Element, child: Element) -> Element:

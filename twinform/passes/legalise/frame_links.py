@@ -291,8 +291,7 @@ def _pose_element_in_frame(part: Opaque, frame: str) -> Opaque:
     if pose is None or pose.get("relative_to") is not None:
         return part
     placed = pose.copy(attributes=(*pose.attributes, ("relative_to", frame)))
-    children = tuple(placed if child is pose else child for child in element.children)
-    return part.copy(element=element.copy(children=children))
+    return part.copy(element=element.exchange(pose, placed))
 
 
 class TurnFramesIntoLinks(ToUrdfPass):

@@ -25,7 +25,7 @@ from twinform.passes.carriers.carriers import NAMESPACE, bits_of_ours, without_p
 from twinform.passes.carriers.misplaced import is_misplaced
 from twinform.passes.carriers.sdf_versions import DIALECT, VersionKeeper, carried, condition_of, is_version_carrier
 from twinform.passes.sdf_versions.steps import backward
-from twinform.passes.sdf_versions.version_pass import VersionPass, is_foreign, replace_child
+from twinform.passes.sdf_versions.version_pass import VersionPass, is_foreign
 from twinform.passes.shared.nodes import map_elements
 from twinform.schemas import Version, parse_version
 
@@ -167,7 +167,7 @@ def _put_attribute(element: Element, piece: Opaque) -> Element:
         return element.copy(attributes=(*element.attributes, piece.attribute))
     name, _, rest = piece.at.partition("/")
     child = element.find(name)
-    return element if child is None else replace_child(element, child, _put_attribute(child, piece.copy(at=rest)))
+    return element if child is None else element.exchange(child, _put_attribute(child, piece.copy(at=rest)))
 
 
 def _has_carriers(document: Document) -> bool:

@@ -115,7 +115,7 @@ def take_element(element: Element, path: tuple[str, ...]) -> tuple[Element, Elem
     if len(path) == 1:
         return element.copy(children=tuple(each for each in element.children if each is not found)), found
     inner, taken = take_element(found, path[1:])
-    return (replace_child(element, found, inner), taken) if taken is not None else (element, None)
+    return (element.exchange(found, inner), taken) if taken is not None else (element, None)
 
 
 def put_element(element: Element, path: tuple[str, ...], made: Element) -> Element:
@@ -126,12 +126,7 @@ def put_element(element: Element, path: tuple[str, ...], made: Element) -> Eleme
     if found is None:
         inner = put_element(Element.unchecked(name=path[0]), path[1:], made)
         return element.copy(children=(*element.children, inner))
-    return replace_child(element, found, put_element(found, path[1:], made))
-
-
-def replace_child(element: Element, old: Element, new: Element) -> Element:
-    """The element with one of its children replaced."""
-    return element.copy(children=tuple(new if child is old else child for child in element.children))
+    return element.exchange(found, put_element(found, path[1:], made))
 
 
 def has_element(element: Element, path: tuple[str, ...]) -> bool:

@@ -8,7 +8,7 @@ from twinform.ir import PLAIN, Document, Element, Node, Opaque, Pose, bits_of, c
 from twinform.ir.transform import Transform
 from twinform.passes.carriers.carriers import to_element
 from twinform.passes.carriers.sdf_versions import VersionCondition, VersionKeeper
-from twinform.passes.sdf_versions.version_pass import VersionPass, map_inside, map_own_elements, replace_child
+from twinform.passes.sdf_versions.version_pass import VersionPass, map_inside, map_own_elements
 from twinform.passes.shared.nodes import pose_piece
 from twinform.passes.shared.poses import in_radians, read_pose
 
@@ -58,5 +58,5 @@ def _write_plain_in(keeper: VersionKeeper, element: Element) -> Element:
     message = f"the pose of <{element.name}> is written in degrees or as a quaternion"
     condition = VersionCondition(since=_SINCE, instead="pose")
     carriers = keeper.keep_element(Opaque.unchecked(element=pose), condition, rules.OTHER_WORDS, message, NOWHERE)
-    changed = replace_child(element, pose, plain)
+    changed = element.exchange(pose, plain)
     return changed.copy(children=(*changed.children, *carriers))

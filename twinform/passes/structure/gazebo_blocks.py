@@ -123,5 +123,4 @@ def move_element(element: Element, at: Transform) -> Element:
     made = to_element(at.compose(written).to_pose(), "pose", "sdf")
     if pose is None:
         return element.copy(children=(made, *element.children))
-    children = tuple(made if child is pose else child for child in element.children)
-    return element.copy(children=children)
+    return element.exchange(pose, made)

@@ -228,8 +228,7 @@ def _pose_element_in_frame(part: Opaque, frame: str) -> Opaque:
     if pose.get("relative_to"):
         return part
     made = pose.copy(attributes=(*pose.attributes, ("relative_to", frame)))
-    children = tuple(made if child is pose else child for child in element.children)
-    return part.copy(element=element.copy(children=children))
+    return part.copy(element=element.exchange(pose, made))
 
 
 def _keep_canonical_link(model: Model, graph: FrameGraph, planned: LumpingPlan) -> Model:

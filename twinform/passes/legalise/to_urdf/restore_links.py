@@ -155,8 +155,7 @@ def _pose_part_in_own_frame(part: Opaque) -> Opaque:
     if element is None or pose is None:
         return part
     bare = pose.copy(attributes=tuple(pair for pair in pose.attributes if pair[0] != "relative_to"))
-    children = tuple(bare if child is pose else child for child in element.children)
-    return part.copy(element=element.copy(children=children))
+    return part.copy(element=element.exchange(pose, bare))
 
 
 def with_floating_joints(model: Model, keeper: UrdfKeeper) -> Model:
