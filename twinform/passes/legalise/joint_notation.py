@@ -20,7 +20,7 @@ from twinform.passes.carriers.annotations import (
 )
 from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.legalise.to_urdf_pass import ToUrdfPass, UrdfKeeper
-from twinform.passes.shared.joint_ends import ENDS, named_ends, report_self_joint, resolve_ends
+from twinform.passes.shared.joint_ends import ENDS, describe_ends, report_self_joint, resolve_ends
 from twinform.passes.structure.reversal import REVERSIBLE, reroot_sdf
 
 
@@ -50,7 +50,7 @@ def _resolve_joint(joint: Joint, links: set[str], graph: FrameGraph, keeper: Urd
     if resolved.parent == resolved.child:
         report_self_joint(joint, resolved, keeper.sink)
         return joint
-    message = f"joint {joint.name!r} is attached to {named_ends(pieces)}; what is written is the link that carries it"
+    message = describe_ends(joint, pieces)
     keeper.account(rules.JOINT_END, message, joint.location, sum(piece.weight for piece in pieces))
     ends = {piece.element.name: piece.element.text for piece in pieces if piece.element}
     return keeper.annotate(resolved, ENDS, attributes=ends)

@@ -9,7 +9,7 @@ from twinform.ir import Document, Joint, Model, Opaque, World, count_parts, rewr
 from twinform.ir.frames import MODEL, WORLD, FrameError, FrameGraph
 from twinform.passes.carriers.sdf_versions import VersionCondition, VersionKeeper
 from twinform.passes.sdf_versions.version_pass import VersionPass
-from twinform.passes.shared.joint_ends import named_ends, report_self_joint, resolve_ends
+from twinform.passes.shared.joint_ends import describe_ends, report_self_joint, resolve_ends
 from twinform.passes.shared.nodes import pose_piece
 
 _SINCE = (1, 8)
@@ -72,7 +72,7 @@ def _resolve(joint: Joint, links: set[str], graph: FrameGraph, keeper: VersionKe
     if resolved.parent == resolved.child:
         report_self_joint(joint, resolved, keeper.sink)
         return joint
-    message = f"joint {joint.name!r} is attached to {named_ends(pieces)}; what is written is the link that carries it"
+    message = describe_ends(joint, pieces)
     gone: tuple[str, ...] = ()
     weight = len(pieces)
     # A joint is posed in its child. Another child means other numbers for the same place.

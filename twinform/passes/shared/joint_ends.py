@@ -55,9 +55,10 @@ def report_self_joint(joint: Joint, resolved: Joint, sink: DiagnosticSink) -> No
     sink.report(rules.SELF_JOINT, message, joint.location, found=joint.child)
 
 
-def named_ends(pieces: list[Opaque]) -> str:
-    """The names of the replaced ends, for a message."""
-    return " and ".join(repr(piece.element.text) for piece in pieces if piece.element)
+def describe_ends(joint: Joint, pieces: list[Opaque]) -> str:
+    """Say in a message which ends of a joint are replaced."""
+    ends = " and ".join(repr(piece.element.text) for piece in pieces if piece.element)
+    return f"joint {joint.name!r} is attached to {ends}; what is written is the link that carries it"
 
 
 _TURNS = frozenset({"revolute", "continuous"})
