@@ -11,7 +11,7 @@ from lsprotocol import types
 from twinform.compiler.companions.check_companion import is_companion, is_yaml, may_be_companion
 from twinform.compiler.companions.find_robots import files_around, find_robots
 from twinform.compiler.companions.follow_renames import Renames, edit_of, leaves_in, with_included
-from twinform.compiler.companions.name_places import Mention, mentions
+from twinform.compiler.companions.name_places import PART_OF, Mention, mentions
 from twinform.compiler.companions.yaml_leaves import YamlError
 from twinform.compiler.input.include_graph import IncludeGraph
 from twinform.compiler.input.load_options import LoadOptions
@@ -22,8 +22,6 @@ from twinform.server.documents import TextDocument
 from twinform.server.names import Name
 from twinform.server.session import Session
 from twinform.text import UndecodableError, UnplacedError
-
-_KINDS = {"joint": "joint", "driven joint": "joint", "interface": "joint", "link": "link", "frame": "link"}
 
 
 class Definition(NamedTuple):
@@ -45,7 +43,7 @@ def mention_at(document: TextDocument, offset: int) -> Mention[Span] | None:
     if not may_be_companion(document.path) or not is_companion(document.path, document.data):
         return None
     around = (each for each in _mentions_in(document) if each.place.start <= offset <= each.place.end)
-    return next((each for each in around if each.kind in _KINDS), None)
+    return next((each for each in around if each.kind in PART_OF), None)
 
 
 def definition_of(session: Session, document: TextDocument, mention: Mention[Span]) -> Definition | None:
@@ -55,7 +53,7 @@ def definition_of(session: Session, document: TextDocument, mention: Mention[Spa
     for robot in find_robots(document.path, document.data, options).robots:
         for file in _files_of(robot, options):
             other = session.files.document(Path(file))
-            for name in defined_anywhere(other, mention.name, _KINDS[mention.kind]) if other is not None else ():
+            for name in defined_anywhere(other, mention.name, PART_OF[mention.kind]) if other is not None else ():
                 if other is not None:
                     found[file, name.span] = Definition(other, name)
     return next(iter(found.values())) if len(found) == 1 else None

@@ -11,7 +11,7 @@ import yaml
 
 from twinform.compiler.companions.check_companion import is_companion, is_yaml, may_be_companion
 from twinform.compiler.companions.find_robots import files_around, find_robots, is_semantic
-from twinform.compiler.companions.name_places import Leaf, Mention, Step, mentions
+from twinform.compiler.companions.name_places import PART_OF, Leaf, Mention, Step, mentions
 from twinform.compiler.companions.robot_parts import read_parts
 from twinform.compiler.companions.yaml_leaves import YamlError, read_yaml
 from twinform.compiler.input.include_graph import IncludeGraph
@@ -24,8 +24,6 @@ from twinform.passes.structure.rename import Rename
 from twinform.passes.structure.rename_parts import part_names
 from twinform.text import ElementSpan, SourceText, UndecodableError, UnplacedError, apply, spans
 
-_PARTS = {"joint": "joint", "driven joint": "joint", "interface": "joint", "link": "link", "frame": "link"}
-"""The part of a robot that a name is of, by its kind."""
 _PLAIN = re.compile(r"[A-Za-z_][\w./-]*")
 
 
@@ -37,7 +35,7 @@ class Renames(NamedTuple):
 
     def new(self, mention: Mention[Span]) -> str | None:
         """Return the new name of what a mention means; None where it stays."""
-        part = _PARTS.get(mention.kind)
+        part = PART_OF.get(mention.kind)
         return (self.links if part == "link" else self.joints).get(_bare(mention)) if part else None
 
 

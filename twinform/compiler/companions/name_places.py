@@ -8,7 +8,7 @@ Lists are no steps: each item has the path of the list. After `beside` stands a 
 import re
 from bisect import bisect_left
 from collections import defaultdict
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from functools import cache
 from typing import Generic, Literal, NamedTuple, TypeVar, cast
 
@@ -17,6 +17,10 @@ from twinform.dataclass import dataclass
 NameKind = Literal["joint", "driven joint", "link", "frame", "group", "sensor", "interface", "controller"]
 """What a name means. A `driven joint` is one of `<ros2_control>`; an `interface` is `joint/interface`; a `frame` may be
 one that is not of the robot, and a `link` may not."""
+PART_OF: Mapping[NameKind, Literal["joint", "link"]] = {
+    "joint": "joint", "driven joint": "joint", "interface": "joint", "link": "link", "frame": "link",
+}  # fmt: skip
+"""The part of a robot that a name is of, by its kind."""
 
 _TABLE = """
 # SRDF
