@@ -24,7 +24,7 @@ from twinform.cli.model_files import (
 )
 from twinform.cli.nearest_projects import NearestProjects
 from twinform.compiler.input.load_options import XACRO, FileOptions, LoadOptions, ReadingOptions
-from twinform.compiler.input.root_names import ENOUGH, root_name
+from twinform.compiler.input.root_names import ENOUGH, FORMATS, root_name
 from twinform.compiler.input.size_limits import LARGEST
 from twinform.diagnostics import Policy
 from twinform.file_access import STREAMS, Readable, read_up_to
@@ -39,7 +39,6 @@ if TYPE_CHECKING:
 
 
 _FORMATS = {b"robot": "urdf", b"sdf": "sdf", b"mujoco": "mjcf"}
-_SUFFIXES = {".urdf": "urdf", ".sdf": "sdf", ".world": "sdf", ".mjcf": "mjcf", ".json": "json"}
 _STDIN = "<stdin>"
 
 Remember = Callable[[object, Callable[[], list[str]]], list[str]]
@@ -92,7 +91,7 @@ def format_of_suffix(name: str) -> str | None:
     """Return the format of a file by its name; `robot.urdf.xacro` is URDF."""
     path = Path(name)
     suffix = path.suffix.lower()
-    return _SUFFIXES.get(Path(path.stem).suffix.lower() if suffix == ".xacro" else suffix)
+    return FORMATS.get(Path(path.stem).suffix.lower() if suffix == ".xacro" else suffix)
 
 
 def _head(path: Path) -> bytes:

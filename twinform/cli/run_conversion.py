@@ -21,6 +21,7 @@ from twinform.cli.printing import print_line, show
 from twinform.cli.project_options import ResolvedOptions
 from twinform.compiler import CompileError, Conversion, ConversionRequest, LoadOptions, read, run_conversion
 from twinform.compiler.input.load_options import XACRO
+from twinform.compiler.input.root_names import without_endings
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, Fate, Ledger, Policy
 from twinform.diagnostics.reporters import FileFindings, printable
@@ -37,8 +38,6 @@ if TYPE_CHECKING:
 
 Target = Language
 TARGETS: tuple[Target, ...] = get_args(Target)
-
-_ENDINGS = frozenset({".urdf", ".sdf", ".world", ".xml", ".mjcf", ".json", ".xacro"})
 
 
 class ConversionJob(NamedTuple):
@@ -120,10 +119,10 @@ def _other_format(source: InputSource) -> Target:
 def _job_in_folder(folder: Path, source: InputSource, target: Target) -> ConversionJob:
     name = Path("stdin" if isinstance(source.content, bytes) else source.name)
     ending = "xml" if target == "mjcf" else str(target)
-    while name.suffix.lower() in _ENDINGS:
-        ending = "world" if target == "sdf" and name.suffix.lower() == ".world" else ending
-        name = name.with_suffix("")
-    return ConversionJob(source, target, folder / f"{name.name}.{ending}")
+    bare = without_endings(name).name
+    if target == "sdf" and ".world" in name.name[len(bare) :].lower():
+        ending = "world"
+    return ConversionJob(source, target, folder / f"{bare}.{ending}")
 
 
 def _require_distinct(found: Sequence[ConversionJob]) -> None:

@@ -5,6 +5,7 @@ from typing import Literal, get_args
 
 from twinform.compiler.conversion_error import CompileError
 from twinform.compiler.input.loading import LoadOptions, read
+from twinform.compiler.input.root_names import FORMATS
 from twinform.compiler.output.emitting import emit
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document
@@ -12,8 +13,6 @@ from twinform.option import require_value
 from twinform.storage.writing import write_atomically
 
 Written = Literal["urdf", "sdf", "mjcf", "json"]
-
-_SUFFIXES: dict[str, Written] = {".urdf": "urdf", ".sdf": "sdf", ".world": "sdf", ".mjcf": "mjcf", ".json": "json"}
 
 
 def dumps(document: Document, *, to: Written | None = None) -> str:
@@ -53,4 +52,4 @@ def dump(document: Document, path: str | Path, *, to: Written | None = None) -> 
         ValueError: the name is that of a file of another format, for which there is `convert`.
     """
     path = Path(path)
-    write_atomically(path, dumps(document, to=to or _SUFFIXES.get(path.suffix.lower())))
+    write_atomically(path, dumps(document, to=to or FORMATS.get(path.suffix.lower())))

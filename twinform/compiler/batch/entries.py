@@ -13,6 +13,7 @@ from posixpath import normpath
 from typing import Any, cast
 
 from twinform.compiler.input.include_graph import is_mjcf_model
+from twinform.compiler.input.root_names import without_endings
 from twinform.dataclass import dataclass
 from twinform.file_access import Readable
 from twinform.storage.writing import identities, is_stream
@@ -129,13 +130,7 @@ def pairs(a: Iterable[ModelEntry], b: Iterable[ModelEntry]) -> list[ModelEntry]:
 
 def stem(name: str) -> str:
     """Return a name without the endings of formats."""
-    path = PurePosixPath(name)
-    while path.suffix.lower() in _ENDINGS and path.stem:
-        path = path.with_suffix("")
-    return str(path)
-
-
-_ENDINGS = frozenset({".urdf", ".sdf", ".world", ".xml", ".mjcf", ".json", ".xacro"})
+    return str(without_endings(PurePosixPath(name)))
 
 
 def _index_by_stem(entries: Iterable[ModelEntry]) -> dict[str, str]:

@@ -1,11 +1,19 @@
-"""The name of the root element at the beginning of a file, which tells MJCF from all else that is called `.xml`."""
+"""Endings of files, and the name of the root element, which tells MJCF from all else that is called `.xml`."""
 
-from pathlib import Path
+from pathlib import Path, PurePath
+from typing import Literal, TypeVar
+
+AnyPath = TypeVar("AnyPath", bound=PurePath)
 
 ENOUGH = 2**16
 """Bytes that contain the root element of every file, except those that begin with a very long comment."""
 MJCF = (".mjcf", ".xml")
 """Endings of MJCF; of `.xml` only where the root element says so."""
+FORMATS: dict[str, Literal["urdf", "sdf", "mjcf", "json"]] = {
+    ".urdf": "urdf", ".sdf": "sdf", ".world": "sdf", ".mjcf": "mjcf", ".json": "json",
+}  # fmt: skip
+"""The format of a file by its ending, where that says it."""
+_MODELS = frozenset({*FORMATS, *MJCF, ".xacro"})
 
 _SKIPPED = ((b"<!--", b"-->"), (b"<?", b"?>"), (b"<!", b">"))
 """What may stand before the root element: beginnings and ends."""
@@ -22,6 +30,13 @@ def root_name(text: bytes) -> bytes:
         past = text.find(end, at)
         at = text.find(b"<", past) if past >= 0 else -1
     return b""
+
+
+def without_endings(path: AnyPath) -> AnyPath:
+    """Return a path without the endings of models: `robot` for `robot.urdf.xacro`."""
+    while path.suffix.lower() in _MODELS and path.stem:
+        path = path.with_suffix("")
+    return path
 
 
 def may_be_mjcf(name: str) -> bool:
