@@ -18,7 +18,7 @@ from twinform.diagnostics.rules import UNPACKAGED_FILE, UNPACKAGED_INCLUDE, UNPA
 from twinform.ir import Document, Element, Format, Plugin, rewrite
 from twinform.ir.rewrite import untyped_elements
 from twinform.lazy import lazy_pattern
-from twinform.passes.framework.assets import AssetError
+from twinform.passes.framework.assets import AssetError, FindingError
 from twinform.passes.framework.pass_base import AssetPass
 from twinform.passes.mesh_references import FORMATS
 from twinform.passes.shared.document_uris import Kind, map_uris
@@ -98,7 +98,7 @@ class CollectFiles(AssetPass):
         # the business of legalisation. To rewrite URIs in each finished text would need a second
         # reader of both formats.
         scheme = "package" if document.format is Format.URDF else "model"
-        missing: dict[str, AssetError | UncollectedError] = {}
+        missing: dict[str, FindingError] = {}
         made = MadeFiles.of(sink.side_files)
 
         def change(uri: str, kind: Kind, where: Location) -> str:
@@ -147,7 +147,7 @@ class CollectFiles(AssetPass):
                 raise
             return made.put(path, self._collection)
 
-    def _report(self, uri: str, error: AssetError | UncollectedError, where: Location, sink: DiagnosticSink) -> None:
+    def _report(self, uri: str, error: FindingError, where: Location, sink: DiagnosticSink) -> None:
         """Report a file that is not in the package, as an error unless missing files are allowed."""
         if error.rule.fatal:
             sink.report(error.rule, error.message, where, found=uri, help=error.help)

@@ -23,7 +23,7 @@ from twinform.dataclass import dataclass
 from twinform.diagnostics import Rule
 from twinform.diagnostics.rules import UNPACKAGED_FILE, URI_LEAVES_FOLDER
 from twinform.file_access import OutsideError
-from twinform.passes.framework.assets import AssetError
+from twinform.passes.framework.assets import AssetError, FindingError
 from twinform.passes.mesh_jobs.mesh_files import POINTER, is_pointer
 from twinform.passes.mesh_references import FORMATS, ReferenceFormat
 
@@ -77,14 +77,11 @@ _NAMED: dict[FileKind, frozenset[FileKind]] = {
 """The kinds of files that a file of each kind may name."""
 
 
-class UncollectedError(Exception):
+class UncollectedError(FindingError):
     """Why a file is not put into the package."""
 
     def __init__(self, message: str, help: str | None = None, rule: Rule = UNPACKAGED_FILE) -> None:
-        super().__init__(message)
-        self.message = message
-        self.help = help
-        self.rule = rule
+        super().__init__(rule, message, help)
 
 
 @dataclass(slots=True)

@@ -7,14 +7,18 @@ from twinform.diagnostics import Rule, rules
 from twinform.file_access import Readable
 
 
-class AssetError(Exception):
-    """A URI leads to no file that may be read; the arguments are those of a diagnostic."""
+class FindingError(Exception):
+    """What is not possible, and the rule, message and help of the finding that says so."""
 
     def __init__(self, rule: Rule, message: str, help: str | None = None) -> None:
         super().__init__(message)
         self.rule = rule
         self.message = message
         self.help = help
+
+
+class AssetError(FindingError):
+    """A URI leads to no file that may be read."""
 
 
 # Passes must not import the compiler, which resolves URIs. An argument of `run` would burden every

@@ -26,9 +26,9 @@ from twinform.passes.framework.pass_base import AssetPass, FilesPass
 from twinform.passes.framework.side_files import CompanionPath
 from twinform.passes.mesh_jobs.child_process import do
 from twinform.passes.mesh_jobs.job import BadMessageError, MeshJob, MeshResult, Options
-from twinform.passes.mesh_jobs.mesh_files import MARK, install_readers
+from twinform.passes.mesh_jobs.mesh_files import MARK
 from twinform.passes.meshes.mesh_source import MeshSource, MeshSources
-from twinform.passes.shared.mesh_solids import MeshError, submesh_of
+from twinform.passes.shared.mesh_solids import MeshError, require_result, submesh_of
 from twinform.request_options import known_prefix
 from twinform.storage.user_cache import prune, user_cache
 from twinform.storage.writing import write_atomically
@@ -136,11 +136,7 @@ class Workbench:
             with working_on(uri):
                 result = do(job)
             self.cache.put(job, result)
-        if result.trouble == "missing":
-            message = f"the mesh {uri!r} is not looked into: {result.message} is not installed"
-            raise MeshError(rules.MESH_READER_MISSING, message, f"run: {install_readers()}")
-        if result.trouble:
-            raise MeshError(rules.UNREADABLE_MESH, f"the mesh {uri!r} cannot be used: {result.message}")
+        require_result(result, uri, "used")
         return MeshOutcome(result, source, stem)
 
     def _choose_stem(self, job: MeshJob, words: str) -> str:

@@ -6,25 +6,19 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple, cast
 
 from twinform.dataclass import dataclass
-from twinform.diagnostics import Rule, rules
+from twinform.diagnostics import rules
 from twinform.ir import Element, Mesh, Vector3
 from twinform.ir.solids import Solid, times_each
 from twinform.ir.transform import times_power
-from twinform.passes.framework.assets import AssetError, Assets
+from twinform.passes.framework.assets import AssetError, Assets, FindingError
 from twinform.passes.mesh_jobs.mesh_files import READ, RefusedMeshError, content_of, install_readers, kind_of
 
 if TYPE_CHECKING:
     from twinform.passes.mesh_jobs.job import MeshResult, Options
 
 
-class MeshError(Exception):
-    """Nothing can be computed from a mesh; the arguments are those of a diagnostic."""
-
-    def __init__(self, rule: Rule, message: str, help: str | None = None) -> None:
-        super().__init__(message)
-        self.rule = rule
-        self.message = message
-        self.help = help
+class MeshError(FindingError):
+    """Nothing can be computed from a mesh."""
 
 
 class MeshTriangles(NamedTuple):
@@ -125,12 +119,21 @@ def _run_job(name: str, path: Path, uri: str, options: "Options") -> "MeshResult
         raise MeshError(rules.UNREADABLE_MESH, f"the mesh {uri!r} cannot be read: {error.strerror}") from error
     except RefusedMeshError as error:
         raise MeshError(rules.UNREADABLE_MESH, f"the mesh {uri!r} cannot be read: {error}") from error
+    require_result(result, uri, "read")
+    return result
+
+
+def require_result(result: "MeshResult", uri: str, what: str) -> None:
+    """Refuse a mesh that could not be `what` for its content, or for what is not installed.
+
+    Raises:
+        MeshError: it says why.
+    """
     if result.trouble == "missing":
         message = f"the mesh {uri!r} is not looked into: {result.message} is not installed"
         raise MeshError(rules.MESH_READER_MISSING, message, f"run: {install_readers()}")
     if result.trouble:
-        raise MeshError(rules.UNREADABLE_MESH, f"the mesh {uri!r} cannot be read: {result.message}")
-    return result
+        raise MeshError(rules.UNREADABLE_MESH, f"the mesh {uri!r} cannot be {what}: {result.message}")
 
 
 def submesh_of(mesh: Mesh) -> tuple[str | None, bool]:
