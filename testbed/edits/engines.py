@@ -151,6 +151,7 @@ def _looks(compiled: Any) -> dict[str, Counter[object]]:
     touched = [bool(a or b) for a, b in zip(model.geom_contype, model.geom_conaffinity, strict=True)]
     numbers = range(model.ngeom)
     return {
+        "model": Counter((bytes(model.names).partition(b"\0")[0],)),
         "colors": Counter(tuple(model.geom_rgba[each].round(_DIGITS)) for each in numbers if not touched[each]),
         "friction": Counter(round(float(model.geom_friction[each][0]), _DIGITS) for each in numbers if touched[each]),
         "actuators": Counter(

@@ -6,7 +6,7 @@ links, joints and frames, and carriers add what MJCF cannot say.
 """
 
 from twinform.compiler.input.load_options import LoadOptions
-from twinform.compiler.input.mjcf.carried_texts import several_trees, take_texts
+from twinform.compiler.input.mjcf.carried_texts import is_in_world, several_trees, take_texts
 from twinform.compiler.input.mjcf.lower import lower
 from twinform.compiler.input.mjcf.normalize import check_classes, normalize
 from twinform.compiler.input.mjcf.note_notation import note_notation
@@ -28,8 +28,7 @@ def lower_mjcf(root: XmlElement, context: Context, load_options: LoadOptions) ->
     note_notation(root, context.sink)
     texts = take_texts(canonical, context)
     several = several_trees(texts)
-    was_world = True if any(each.kind == "world" for each in texts) else None
-    document = lower(canonical, context, load_options, root, in_world=was_world if several is None else False)
+    document = lower(canonical, context, load_options, root, in_world=is_in_world(texts, several))
     if several is not None and len(document.models) > 1:
         document = join_trees(document, several)
     if not texts:

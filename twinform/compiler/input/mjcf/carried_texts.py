@@ -44,6 +44,16 @@ def several_trees(texts: Iterable[CarriedText]) -> str | None:
     return next((each.name for each in models if find_annotation(each, SEVERAL) is not None), None)
 
 
+def is_in_world(texts: Iterable[CarriedText], several: str | None) -> bool | None:
+    """Whether carriers say that what the file has was in a world of SDF; None where none of them knows."""
+    if several is not None:
+        return False
+    kinds = {each.kind: each.node for each in texts}
+    if "world" in kinds:
+        return True
+    return False if DOCUMENT in kinds and find_annotation(kinds[DOCUMENT], SEVERAL) is None else None
+
+
 def _read(text: XmlElement, context: Context) -> CarriedText | None:
     # MuJoCo saves data as the content of the element.
     written = text.get("name") or ""

@@ -47,7 +47,8 @@ def lower(
 ) -> Document:
     """Build the document of a canonical tree, which was made of the tree of a file.
 
-    With `in_world` even a single tree of bodies is a model in a world; where it is False, several are in none.
+    With `in_world` even a single tree of bodies is a model in a world; where it is False, several are in none, and
+    what is around them belongs to the first.
     """
     lowering = FileLowering(Piece(root, context.file), context, load_options, file)
     lowering.in_world = in_world
@@ -85,9 +86,10 @@ class FileLowering:
 
     @property
     def is_world(self) -> bool:
-        """Whether the file is a world and not a model."""
-        several = len(self.trees) != 1 and self.in_world is not False
-        return several or self._has_ground or self.in_world is True
+        """Whether the file is a world and not a model; without bodies it is one."""
+        if self.in_world is not None and self.trees:
+            return self.in_world
+        return len(self.trees) != 1 or self._has_ground
 
     @property
     def _has_ground(self) -> bool:
@@ -100,10 +102,12 @@ class FileLowering:
         alone = len(self.trees) == 1
         taken = {WORLDBODY} if self._has_ground else set[str]()
         models = [
-            self._model(number, tree, name if alone else tree.name, taken) for number, tree in enumerate(self.trees)
+            self._model(number, tree, name if alone or not self.is_world else tree.name, taken)
+            for number, tree in enumerate(self.trees)
         ]
+        models = [with_rest(each, in_sections(self._left_of(number))) for number, each in enumerate(models)]
         if not self.is_world:
-            return self._in_sdf(models=tuple(models))
+            return self._in_sdf(models=(*models, *self._ground()))
         return self._in_sdf(worlds=(self._world(name, models),))
 
     def _in_sdf(self, models: tuple[Model, ...] = (), worlds: tuple[World, ...] = ()) -> Document:
@@ -126,7 +130,7 @@ class FileLowering:
         self._add_sensors(number, parts)
         given = reserve_name(safe_name(name or _MODEL), taken, self.numbers)
         is_static = lowering.is_static
-        model = Model.unchecked(
+        return Model.unchecked(
             name=given,
             pose=pose_of(tree.transform(), source=tree.source),
             static=True if is_static else None,
@@ -137,11 +141,6 @@ class FileLowering:
             opaque=name_mark(name, given),
             source=tree.source,
         )
-        left = self._left_of(number)
-        if not self.is_world and number == 0:
-            for tag, elements in self._left(self._scene()).items():
-                left.setdefault(tag, []).extend(elements)
-        return with_rest(model, in_sections(left))
 
     def _close_loops(self, number: int, lowering: TreeLowering, parts: TreeParts) -> None:
         found: list[tuple[Piece, Joint]] = []
@@ -187,7 +186,10 @@ class FileLowering:
             parts.joints[above] = joint.copy(sensors=(*joint.sensors, sensor))
 
     def _left_of(self, number: int) -> dict[str, list[Element]]:
-        """Return what no node says of the sections and is about one tree alone."""
+        """Return what no node says of the sections and is about one tree alone, once all trees have been lowered.
+
+        What is about none or several belongs to the world, or else to the model of the first tree.
+        """
         left = {} if number and not self.is_world else {ROOT: [_MARK]}
         for tag in self.sections.tags:
             if tag not in KNOWN or tag in {WORLDBODY, "asset", "compiler", "option", "default"}:
@@ -195,6 +197,9 @@ class FileLowering:
             for piece in self.owners.about(number, tag):
                 if not piece.is_settled:
                     left.setdefault(tag, []).append(self._rest(piece, tag))
+        if not self.is_world and number == 0:
+            for tag, elements in self._left(self._scene()).items():
+                left.setdefault(tag, []).extend(elements)
         return left
 
     def _rest(self, piece: Piece, section: str) -> Element:
@@ -237,7 +242,7 @@ class FileLowering:
         return [
             self.keeper.whole(each, why="a model has no place for what is around it")
             for each in self.sections.inside(WORLDBODY)
-            if each.tag != "body"
+            if each.tag not in {"body", "geom"}
         ]
 
     def _world(self, name: str | None, models: list[Model]) -> World:

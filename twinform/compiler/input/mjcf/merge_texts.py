@@ -9,6 +9,7 @@ from typing import TypeVar
 from twinform.compiler.input.mjcf.carried_texts import CarriedText, nodes_of, report_stale
 from twinform.compiler.input.mjcf.joined_joints import join_joints
 from twinform.compiler.input.mjcf.merge_parts import merge_parts
+from twinform.compiler.input.mjcf.names import safe_name
 from twinform.compiler.input.mjcf.one_model import one_model
 from twinform.compiler.input.mjcf.renamed_parts import renamed_parts
 from twinform.compiler.input.mjcf.restore_contacts import settle_contacts
@@ -65,13 +66,6 @@ def merge_texts(document: Document, texts: tuple[CarriedText, ...], root: XmlEle
         return document
 
 
-def _is_free(root: XmlElement) -> bool:
-    """Whether the first body of a file floats."""
-    body = root.find("worldbody/body")
-    joints = () if body is None else (*body.iterchildren("freejoint"), *body.iterchildren("joint"))
-    return any(each.tag == "freejoint" or each.get("type") == "free" for each in joints)
-
-
 class _Merged:
     """Merges the carriers of one file."""
 
@@ -94,7 +88,7 @@ class _Merged:
 
     def document(self) -> Document:
         """The document as it was before it was written, with all edits since."""
-        model = self._named(one_model(self.lowered, is_free=_is_free(self.root)))
+        model = self._named(one_model(self.lowered, safe_name(self.root.get("model") or "model")))
         back = sensors_back(self.links, self.joints, self.world, self.root, self.sink)
         self.links, self.joints, self.world, self.parts = back
         model = without_parts_of_sensors(model, self.parts)
@@ -167,7 +161,13 @@ class _Merged:
         if partial.static and not is_static:
             self._stale(f"model {model.name!r} is not static any more: something in it moves", partial)
             partial = partial.copy(static=None)
+        partial = partial.copy(name=self._name(partial))
         return self._let_go(self.merging.merge(model, partial), made, is_static=is_static)
+
+    def _name(self, partial: Model | World) -> str:
+        """The name of a model or world: that of the file, unless it has none or the one that was written."""
+        written = self.root.get("model")
+        return partial.name if written in {None, partial.name} else safe_name(written or "")
 
     def _typed(self, joints: Iterable[Joint], ends: set[str]) -> Iterable[Joint]:
         """The partial joints whose links are there."""
@@ -242,8 +242,8 @@ class _Merged:
         # Without the mark of what was read of MJCF: this is the world of SDF that was written.
         lowered = without_usual(lowered.copy(lights=without_lights(lowered.lights, self.parts)))
         lowered, partial = restored_settings(lowered, partial, self.root)
-        world = lowered.copy(models=model.models, joints=model.joints, frames=model.frames, name=partial.name)
-        world = self.merging.merge(world, partial)
+        world = lowered.copy(models=model.models, joints=model.joints, frames=model.frames)
+        world = self.merging.merge(world, partial.copy(name=self._name(partial)))
         return world.copy(lights=tuple(without_annotation(each, POSE) for each in world.lights))
 
     @property

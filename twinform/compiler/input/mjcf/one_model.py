@@ -2,7 +2,7 @@
 
 from twinform.compiler.input.mjcf.restore_contacts import with_contacts
 from twinform.compiler.input.mjcf.usual_remainders import without_usual
-from twinform.ir import Collision, Document, Frame, Joint, Link, Model, Node, Opaque, Pose, World, rewrite
+from twinform.ir import Collision, Document, Frame, Joint, Link, Model, Node, Opaque, Pose, rewrite
 from twinform.ir.frames import WORLD
 from twinform.ir.transform import Transform
 from twinform.passes.carriers.annotations import (
@@ -16,12 +16,12 @@ from twinform.passes.legalise.changed_names import NAME
 from twinform.passes.shared.nodes import reserve_name
 
 
-def one_model(document: Document, *, is_free: bool) -> Model:
+def one_model(document: Document, name: str) -> Model:
     """The links, joints and frames of all models of a document in one, whose frame is that of the world.
 
-    A static tree, and the only one unless it `is_free`, hangs from the world by a fixed joint that is annotated as
-    made. All orientations are roll, pitch and yaw; a quaternion comes back where a carrier says so. Remainders that
-    are in every written file are gone, and what geoms say of contacts is noted.
+    A static tree hangs from the world by a fixed joint that is annotated as made. All orientations are roll, pitch and
+    yaw; a quaternion comes back where a carrier says so. Remainders that are in every written file are gone, and what
+    geoms say of contacts is noted.
     """
     world = document.worlds[0] if document.worlds else None
     models = world.models if world else document.models
@@ -29,18 +29,17 @@ def one_model(document: Document, *, is_free: bool) -> Model:
     links: list[Link] = []
     joints: list[Joint] = [*(world.joints if world else ())]
     frames: list[Frame] = [*(world.frames if world else ())]
-    opaque: list[Opaque] = [*document.opaque, *(world.opaque if world and not _is_written_world(world) else ())]
+    opaque: list[Opaque] = [*document.opaque]
     for each in models:
         children = {joint.child for joint in each.joints if joint.parent != WORLD}
         roots = [link for link in each.links if link.name not in children]
-        links += [_placed(link, each.pose) if link in roots else link for link in each.links]
-        if each.static or not (world or is_free):
+        links += [_placed(link, each.pose) for link in each.links]
+        if each.static:
             above = {joint.child for joint in each.joints}  # a root may hang from the world
             joints += [_held(link, taken) for link in roots if link.name not in above]
         joints += each.joints
         frames += each.frames
         opaque += without_annotation(each, NAME, MADE_NAME).opaque
-    name = models[0].name if len(models) == 1 else world.name if world else "model"
     source = world.source if world else models[0].source if models else document.source
     model = Model.unchecked(
         name=name,
@@ -77,7 +76,7 @@ def join_trees(document: Document, name: str) -> Document:
     joints: list[Joint] = []
     for each in models:
         held = {joint.child for joint in each.joints if joint.parent != WORLD}
-        links += [link if link.name in held else _placed(link, each.pose) for link in each.links]
+        links += [_placed(link, each.pose) for link in each.links]
         if each.static and not is_static:
             joints += [_held(link, taken) for link in each.links if link.name not in held]
         joints += each.joints
@@ -100,14 +99,9 @@ def _with_shapes_apart(link: Link) -> Link:
     return link.copy(visuals=tuple(each for each in link.visuals if find_annotation(each, SAME_GEOM) is None))
 
 
-def _is_written_world(world: World) -> bool:
-    """Whether a world has settings of its own, which stay with it."""
-    return bool(world.opaque)
-
-
 def _placed(link: Link, at: Pose | None) -> Link:
-    """A root link, whose model has a pose, in the world."""
-    if at is None:
+    """A link of a model that has a pose, in the world; most links are posed in that of the body around them."""
+    if at is None or (link.pose is not None and link.pose.relative_to):
         return link
     placed = Transform.from_pose(_in_rpy(at)).compose(Transform.from_pose(link.pose and _in_rpy(link.pose)))
     return link.copy(pose=placed.to_pose())
