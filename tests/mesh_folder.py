@@ -15,6 +15,9 @@ class MeshFolder:
     def find(self, uri: str) -> Path:
         return self.folder / uri
 
+    def xml(self, path: Path, largest: int) -> bytes:
+        return self.readable.read(path, largest)
+
     def holder(self, folder: Path, kind: str) -> str | None:
         del folder, kind
         return None

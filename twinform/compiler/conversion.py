@@ -3,7 +3,6 @@
 from collections.abc import Callable
 from dataclasses import field, replace
 from functools import cached_property
-from pathlib import Path
 
 from twinform.compiler.conversion_error import CompileError
 from twinform.compiler.input.allowances import staying
@@ -17,6 +16,7 @@ from twinform.compiler.input.loading import (
     read_tree_again,
 )
 from twinform.compiler.input.take_comments import comments_of
+from twinform.compiler.other_xacro import assets_of
 from twinform.compiler.output.emitting import document_tree, emit, emit_legal
 from twinform.compiler.output.source_comments import Comments
 from twinform.compiler.request import ConversionRequest
@@ -96,7 +96,7 @@ def convert_once(
         # text of MJCF stays what it is
         as_mjcf = request.to == "mjcf" and not (request.passes or request.remedies or request.default_classes)
         loaded = read(source, replace(load_options, keep_comments=comments, as_mjcf=as_mjcf), name=name)
-        request = replace(request, assets=LocalAssets(load_options.search, Path(loaded.path)))
+        request = replace(request, assets=assets_of(loaded.path, load_options))
         # SDF to SDF keeps its includes: a world with 525 models from Fuel is read and written
         # without opening any of them. URDF has none, so there those of the chosen model are
         # expanded, and no others; for an older SDF those that would be another robot in it.

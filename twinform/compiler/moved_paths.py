@@ -44,6 +44,14 @@ class MovedAssets:
         """
         return self.source.find(self.before.get(uri, uri))
 
+    def xml(self, path: Path, largest: int) -> bytes:
+        """Return the text of an XML file that was found, of up to `largest` bytes; one of xacro is expanded.
+
+        Raises:
+            AssetError: it cannot be read or expanded, or must not be.
+        """
+        return self.source.xml(path, largest)
+
     def holder(self, folder: Path, kind: Literal["package", "model"]) -> str | None:
         """Return the name of the ROS package or Gazebo model that a folder is; None where it is none."""
         return self.source.holder(folder, kind)

@@ -5,7 +5,7 @@ from pathlib import Path
 from twinform.compiler.conversion_error import ReadOnlyPassError
 from twinform.compiler.expand_includes import OtherDocuments
 from twinform.compiler.input.loading import LoadOptions
-from twinform.compiler.resolve_uris import LocalAssets
+from twinform.compiler.other_xacro import assets_of
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document
 from twinform.passes import FilesPass, Pass, Pipeline
@@ -20,7 +20,7 @@ def run_read_only(
         ReadOnlyPassError: one of them changes the document, or makes a file.
         PassError: one of them is at fault.
     """
-    lent = passes.with_files(LocalAssets(load_options.search, path), OtherDocuments(load_options, str(path)).read)
+    lent = passes.with_files(assets_of(path, load_options), OtherDocuments(load_options, str(path)).read)
     for step in lent:
         if isinstance(step, FilesPass):
             raise _refusal(step, "writes a file")

@@ -1,7 +1,7 @@
 """Resolves the URIs of a model to files."""
 
 import os
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import field
 from pathlib import Path
 from posixpath import normpath
@@ -282,10 +282,14 @@ def _describe_search(folders: Iterable[Path], advice: str) -> str:
 
 @dataclass(frozen=True, slots=True)
 class LocalAssets:
-    """The files that a document names, for passes; `beside` is the file of the document."""
+    """The files that a document names, for passes; `beside` is the file of the document.
+
+    `expand` makes the text of a xacro file; without it none is read.
+    """
 
     search: SearchPath
     beside: Path
+    expand: Callable[[Path], bytes] | None = field(default=None, compare=False, repr=False)
 
     @property
     def folder(self) -> Path | None:
@@ -304,6 +308,24 @@ class LocalAssets:
             UriError: there is none, or it must not be read.
         """
         return self.search.find(uri, self.beside)
+
+    def xml(self, path: Path, largest: int) -> bytes:
+        """Return the text of an XML file that was found, of up to `largest` bytes; one of xacro is expanded.
+
+        Raises:
+            AssetError: it cannot be read or expanded, or must not be.
+        """
+        if path.suffix.lower() != ".xacro":
+            try:
+                text = self.readable.read(path, largest)
+            except OSError as error:
+                raise AssetError(rules.UNREADABLE_FILE, str(error)) from error
+            if len(text) > largest:
+                raise AssetError(rules.UNREADABLE_FILE, f"it has more than {largest:,} bytes")
+            return text
+        if self.expand is None:
+            raise AssetError(rules.XACRO_REFUSED, f"{path.name!r} is xacro, which is not expanded here")
+        return self.expand(path)
 
     def holder(self, folder: Path, kind: Literal["package", "model"]) -> str | None:
         """Return the name of the ROS package or Gazebo model that a folder is; None where it is none."""

@@ -22,10 +22,10 @@ from twinform.compiler.expand_includes import OtherDocuments, expand
 from twinform.compiler.input.loading import Input, LoadOptions, garbage_collection_paused, read
 from twinform.compiler.input.take_comments import comments_of
 from twinform.compiler.moved_paths import moved
+from twinform.compiler.other_xacro import assets_of
 from twinform.compiler.output.emitting import emit_legal
 from twinform.compiler.output.source_comments import Comments
 from twinform.compiler.request import ConversionRequest
-from twinform.compiler.resolve_uris import LocalAssets
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Ledger, Location, SideFile, rules
 from twinform.diagnostics.rules import UNSAYABLE_SHAPE
@@ -103,7 +103,7 @@ def split(
         if checked.document is None or not checked.accepted:
             raise checked.error()
         sink = checked.sink(strict=load_options.strict)
-        assets = LocalAssets(load_options.search, Path(checked.path))
+        assets = assets_of(checked.path, load_options)
         request = replace(request, assets=assets, mixed=has_mixed_words(checked))
         passes = request.passes.with_files(request.assets, OtherDocuments(load_options, checked.path).read)
         document = passes.run(checked.document, sink, instrumentation, verify)

@@ -200,6 +200,10 @@ class _Collected:
         path.write_bytes(content)
         return path
 
+    def xml(self, path: Path, largest: int) -> bytes:
+        del largest
+        raise AssetError(UNRESOLVED_URI, f"{path.name!r} is not in the package")
+
     def holder(self, folder: Path, kind: Literal["package", "model"]) -> str | None:
         del folder, kind
         return None

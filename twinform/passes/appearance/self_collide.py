@@ -42,7 +42,7 @@ class SelfCollide(AssetPass):
     srdf: str | None = Field(
         default=None,
         min_length=1,
-        description="The SRDF file, without xacro: a path from the folder of the model, or a `package://`.",
+        description="The SRDF file, or xacro of one: a path from the folder of the model, or a `package://`.",
     )
 
     def run(self, document: Document, sink: DiagnosticSink) -> Document:
@@ -64,9 +64,9 @@ class SelfCollide(AssetPass):
         if self.srdf is None:
             return Disabled()
         try:
-            text = self._assets.readable.read(self._assets.find(self.srdf), _LARGEST)
+            text = self._assets.xml(self._assets.find(self.srdf), _LARGEST)
             root = etree.fromstring(text, etree.XMLParser(resolve_entities=False, no_network=True))
-        except (AssetError, OSError, ValueError, etree.XMLSyntaxError) as error:
+        except (AssetError, ValueError, etree.XMLSyntaxError) as error:
             message = f"{self.srdf!r} cannot be read: {error}"
             sink.report(UNREAD_DOCUMENT, message, document.location, found=self.srdf)
             return None

@@ -45,6 +45,14 @@ class Assets(Protocol):
         """
         ...
 
+    def xml(self, path: Path, largest: int) -> bytes:
+        """The text of an XML file that was found, of up to `largest` bytes; one of xacro is expanded.
+
+        Raises:
+            AssetError: it cannot be read or expanded, or must not be.
+        """
+        ...
+
     def holder(self, folder: Path, kind: Literal["package", "model"]) -> str | None:
         """The name of the ROS package or Gazebo model in a folder; None where the folder holds neither."""
         ...
@@ -62,6 +70,10 @@ class _NoAssets:
 
     def find(self, uri: str) -> Path:
         raise AssetError(rules.UNRESOLVED_URI, f"{uri!r} cannot be looked up: only the text of the model is known")
+
+    def xml(self, path: Path, largest: int) -> bytes:
+        del largest
+        raise AssetError(rules.UNREADABLE_FILE, f"{path.name!r} cannot be read: only the text of the model is known")
 
     def holder(self, folder: Path, kind: Literal["package", "model"]) -> str | None:
         del folder, kind
