@@ -17,7 +17,6 @@ from twinform.compiler.input.mjcf.lower_bodies import JOINTS, TreeLowering, Tree
 from twinform.compiler.input.mjcf.lower_equalities import followers, loop_of, lower_loop, places_beside_tree
 from twinform.compiler.input.mjcf.lower_geoms import GeomLowering
 from twinform.compiler.input.mjcf.lower_inertials import MassSettings, body_inertia, scale_of
-from twinform.compiler.input.mjcf.lower_joints import efforts
 from twinform.compiler.input.mjcf.lower_lights import lower_light
 from twinform.compiler.input.mjcf.lower_option import lower_option
 from twinform.compiler.input.mjcf.lower_sensors import SiteSensor, by_site, lower_sensor
@@ -29,6 +28,7 @@ from twinform.compiler.resolve_uris import LocalAssets
 from twinform.ir import Document, Element, Format, Frame, Joint, Light, Link, Model, World
 from twinform.passes.carriers.annotations import MADE_NAME, WORLDBODY, annotation, with_annotation
 from twinform.passes.carriers.carriers import NAMESPACE, PREFIX
+from twinform.passes.legalise.to_mjcf.actuator_efforts import Actuator, efforts
 from twinform.passes.legalise.to_mjcf.kept_mjcf import KNOWN, ROOT
 from twinform.passes.shared.mesh_solids import Meshes
 from twinform.passes.shared.nodes import reserve_name
@@ -78,7 +78,7 @@ class FileLowering:
         parts = (each.peek("name") for each in root.walk() if each.tag in _NAMED)
         self.written_names = frozenset(each for each in parts if each)
         self.followers = followers(self.sections.inside("equality"))
-        self.efforts = efforts(self.sections.inside("actuator"))
+        self.efforts = efforts(Actuator(each.tag, each.peek) for each in self.sections.inside("actuator"))
         self.numbers: dict[str, int] = {}
         self.sensors: dict[int | None, list[SiteSensor]] = {}
         for found in by_site(self.sections.inside("sensor")):

@@ -4,7 +4,7 @@ Of actuators they take how hard these push; the actuators themselves stay as the
 """
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 
 from twinform.compiler.input.mjcf.pieces import Piece
 from twinform.compiler.input.mjcf.remainders import RemainderKeeper, holder
@@ -12,6 +12,8 @@ from twinform.ir import Axis, Dynamics, Joint, JointType, Limit, Mimic, Opaque, 
 from twinform.ir.defaults import AXIS
 from twinform.ir.document import Format
 from twinform.ir.transform import rounded
+from twinform.passes.legalise.to_mjcf.actuator_efforts import counts
+from twinform.passes.legalise.to_mjcf.kept_mjcf import FORCE
 from twinform.schemas import format_value
 
 FREE = "free"
@@ -53,8 +55,8 @@ def _rest(piece: Piece, axis: Axis | None, keeper: RemainderKeeper) -> tuple[Opa
     """
     element = keeper.rest_element(piece)
     effort = axis.limit.effort if axis is not None and axis.limit is not None else None
-    if effort is not None and not is_limited(piece, "actuatorfrclimited", "actuatorfrcrange"):
-        force = {"actuatorfrclimited": "false", "actuatorfrcrange": f"{format_value(-effort)} {format_value(effort)}"}
+    if effort is not None and not is_limited(piece, *FORCE):
+        force = dict(zip(FORCE, ("false", format_value((-effort, effort))), strict=True))
         others = tuple(pair for pair in element.attributes if pair[0] not in force)
         element = element.copy(attributes=(*others, *force.items()))
     return (holder(element),) if element.attributes else ()
@@ -109,9 +111,7 @@ def _range(piece: Piece, ref: float) -> tuple[float | None, float | None]:
 
 def is_limited(piece: Piece, limited: str = "limited", range_: str = "range") -> bool:
     """Tell whether a range counts: where that is said, and otherwise where it is one."""
-    said = piece.peek(limited) or "auto"
-    least, most = (*piece.peek_numbers(range_), 0.0, 0.0)[:2]
-    return said == "true" if said != "auto" else least < most
+    return counts(piece.peek, limited, range_)
 
 
 def _take_unlimited(piece: Piece) -> None:
@@ -123,7 +123,7 @@ def _take_unlimited(piece: Piece) -> None:
 
 def _own_effort(piece: Piece, keeper: RemainderKeeper) -> float | None:
     """Return the greatest force of all actuators, if the joint has a limit of it."""
-    if not is_limited(piece, "actuatorfrclimited", "actuatorfrcrange"):
+    if not is_limited(piece, *FORCE):
         return None
     least, most = piece.numbers("actuatorfrcrange")
     if least == -most:
@@ -164,29 +164,3 @@ def _first_coefficient(piece: Piece, attribute: str) -> float | None:
     if any(numbers[1:]):
         piece.leave(attribute)
     return numbers[0] if numbers else None
-
-
-def efforts(actuators: Iterable[Piece]) -> dict[str, float]:
-    """Return the greatest force in N or N m on each joint that is named by an actuator and limited by all of them."""
-    found: dict[str, float] = {}
-    endless: set[str] = set()
-    for piece in actuators:
-        joint = piece.peek("joint")
-        if joint is None:
-            continue
-        force = _greatest_force(piece)
-        if force is None:
-            endless.add(joint)
-        else:
-            found[joint] = found.get(joint, 0.0) + force
-    return {joint: force for joint, force in found.items() if joint not in endless and force > 0}
-
-
-def _greatest_force(piece: Piece) -> float | None:
-    """Return the greatest force of an actuator: of its own limit, or of a motor at the end of its control range."""
-    gear = abs(next(iter(piece.peek_numbers("gear")), 1.0))
-    if is_limited(piece, "forcelimited", "forcerange"):
-        return gear * max(map(abs, piece.peek_numbers("forcerange")))
-    if piece.tag == "motor" and is_limited(piece, "ctrllimited", "ctrlrange"):
-        return gear * max(map(abs, piece.peek_numbers("ctrlrange")))
-    return None

@@ -16,7 +16,7 @@ from twinform.compiler.input.mjcf.spellings import Spellings
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document, Frame, Joint, Link, Model, Node, replace_fields, rewrite
 from twinform.ir.frames import WORLD
-from twinform.passes.carriers.annotations import MADE_NAME, with_annotation, without_annotation
+from twinform.passes.carriers.annotations import MADE_NAME, annotation, with_annotation, without_annotation
 from twinform.passes.carriers.mjcf_texts import SEVERAL
 from twinform.passes.carriers.partial_nodes import WRITTEN, Merging, is_rest, written_name, written_names
 from twinform.passes.legalise.changed_names import fixed_joint_name
@@ -58,11 +58,11 @@ class _PartMerging:
         held = {bodies[body]: each for body, each in self._of_bodies.items() if body is not None and body in bodies}
         fixed = {link: each.copy(child=link) for link, each in held.items()}
         self._used.update(map(id, held.values()))
-        names = {each.name for each in model.joints}
-        chains = [each for each in self._joints if not names.isdisjoint(written_names(each))]
-        model = self._joined(without_parts_of_sensors(model, self._parts), chains, bodies)
-        self._used.update(map(id, chains))
-        known = {each.name: each for each in chains if len(written_names(each)) > 1}
+        names = {name_in_file(each): each.name for each in model.joints}
+        several = [each for each in self._joints if len(written := written_names(each)) > 1 and names.keys() & written]
+        self._used.update(map(id, several))
+        chains = {each.name: _called(each, names) for each in several}
+        model = self._joined(without_parts_of_sensors(model, self._parts), chains.values(), bodies)
         told = self._partials.get((Model, model.name))
         if isinstance(told, Model) and told.self_collide is False and model.self_collide:
             model = kept_apart(model, self.root)
@@ -74,7 +74,7 @@ class _PartMerging:
         return replace_fields(
             self._merged(model),
             links=tuple(map(self._merged, model.links)),
-            joints=(*(self._merged_joint(each, fixed, known) for each in model.joints), *holds),
+            joints=(*(self._merged_joint(each, fixed, chains) for each in model.joints), *holds),
             frames=tuple(map(self._merged, model.frames)),
         )
 
@@ -95,7 +95,8 @@ class _PartMerging:
         found = ((each, bodies.get(each.parent or ""), bodies.get(each.child or "")) for each in self._loops)
         closed = [(each, parent, child) for each, parent, child in found if parent is not None and child is not None]
         self._used.update(id(each) for each, _, _ in closed)
-        loops = [each.copy(parent=parent, child=child) for each, parent, child in closed]
+        names = {name_in_file(each): each.name for each in model.joints}
+        loops = [_called(each, names).copy(parent=parent, child=child) for each, parent, child in closed]
         model, left = join_joints(model, chains)
         for each in left:
             report_stale(self.sink, f"joint {each.name!r} is no joint of type {each.type} any more", each.source)
@@ -104,11 +105,11 @@ class _PartMerging:
         return without_parts_of_sensors(back.model, kept)
 
     def _merged(self, node: AnyPart) -> AnyPart:
-        partial = self._partials.get((type(node), node.name))
+        partial = self._partials.get((type(node), node.name if isinstance(node, Model) else name_in_file(node)))
         if not isinstance(partial, type(node)):
             return node
         self._used.add(id(partial))
-        return self._merging.merge(node, _bare(partial))
+        return self._merging.merge(node, _bare(partial).copy(name=node.name))
 
     def _merged_joint(self, joint: Joint, fixed: Mapping[str, Joint], chains: Mapping[str, Joint]) -> Joint:
         """A joint with what a carrier holds of it, if it is fixed, or was several by the name that it has now."""
@@ -123,6 +124,13 @@ AnyNode = TypeVar("AnyNode", bound=Node)
 
 def _bare(partial: AnyNode) -> AnyNode:
     return without_annotation(partial, WRITTEN, SEVERAL)
+
+
+def _called(partial: Joint, names: Mapping[str, str]) -> Joint:
+    """A partial joint that is several in the file, by the names that these have in SDF."""
+    notes = (annotation(WRITTEN, attributes={"as": names.get(each, each)}) for each in written_names(partial))
+    bare = without_annotation(partial, WRITTEN)
+    return bare.copy(opaque=(*notes, *bare.opaque))
 
 
 def _added_holds(model: Model, fixed: Iterable[Joint]) -> Iterable[Joint]:

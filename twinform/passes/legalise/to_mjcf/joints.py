@@ -129,6 +129,8 @@ def _element(
     if limit is not None and joint.type not in {"ball", "spherical"}:
         ends = _range(context, joint, limit) if joint.type != "continuous" else []
         attributes += [*ends, *_effort(context, joint, limit)]
+    if kind != "ball":
+        context.efforts[name] = _greatest_effort(limit)
     if axis is not None and axis.dynamics is not None:
         attributes += _dynamics(axis.dynamics)
     if kind != "ball" and joint.type not in TWO_AXES and (rotor := context.rotors.get(between.name)):
@@ -175,6 +177,12 @@ def _effort(context: MjcfContext, joint: Joint, limit: Limit) -> list[tuple[str,
         context.approximate(rules.ZERO_LIMIT, message, limit.location, 0)
         return []
     return [("actuatorfrclimited", True), ("actuatorfrcrange", (-effort, effort))]
+
+
+def _greatest_effort(limit: Limit | None) -> float:
+    """The effort of a joint; infinite where nothing limits it."""
+    effort = limit.effort if limit is not None else None
+    return math.inf if effort is None or effort < 0 or effort >= UNLIMITED else effort
 
 
 def _dynamics(dynamics: Dynamics) -> Iterator[tuple[str, Value]]:

@@ -17,7 +17,8 @@ from twinform.schemas import format_value
 
 ROOT = "mujoco"
 """The section by which a model or world says that it was read of MJCF: `<tf:mjcf><mujoco/></tf:mjcf>`."""
-_FORCE = ("actuatorfrclimited", "actuatorfrcrange")
+FORCE = ("actuatorfrclimited", "actuatorfrcrange")
+"""The attributes of a joint that limit the forces of all its actuators together."""
 _POLYNOMIALS = ("damping", "stiffness")
 """Coefficients of which SDF says the first."""
 # MuJoCo takes them in any order; this is the one of its documentation, with our texts behind what people read.
@@ -61,21 +62,21 @@ def with_kept_joint(element: Element, joint: Joint) -> Element:
     kept = next((each for each in kept_elements(joint) if each.name == "joint"), None)
     if kept is None:
         return element
-    is_of_actuators = kept.get(_FORCE[0]) == "false"
-    said = kept.get(_FORCE[1]) or element.get(_FORCE[1])
-    if is_of_actuators and said and _is_greatest(said, element.get(_FORCE[1])):  # else it was edited
+    is_of_actuators = kept.get(FORCE[0]) == "false"
+    said = kept.get(FORCE[1]) or element.get(FORCE[1])
+    if is_of_actuators and said and _is_greatest(said, element.get(FORCE[1])):  # else it was edited
         element = _without_force(element)
     written = tuple((name, _with_rest(name, value, kept)) for name, value in element.attributes)
-    if (force := kept.get(_FORCE[1])) and _is_greatest(force, element.get(_FORCE[1])):
-        written = tuple((name, force if name == _FORCE[1] else value) for name, value in written)
+    if (force := kept.get(FORCE[1])) and _is_greatest(force, element.get(FORCE[1])):
+        written = tuple((name, force if name == FORCE[1] else value) for name, value in written)
     made = with_kept(element.copy(attributes=written), joint)
-    if made.get(_FORCE[1]) is None or (is_of_actuators and element.get(_FORCE[1]) is None):
+    if made.get(FORCE[1]) is None or (is_of_actuators and element.get(FORCE[1]) is None):
         made = _without_force(made)  # where nothing is limited, it need not be said
     return _counted_from(made)
 
 
 def _without_force(element: Element) -> Element:
-    return element.copy(attributes=tuple(pair for pair in element.attributes if pair[0] not in _FORCE))
+    return element.copy(attributes=tuple(pair for pair in element.attributes if pair[0] not in FORCE))
 
 
 def with_kept_equality(element: Element, joint: Joint) -> Element:

@@ -135,8 +135,7 @@ class _Texts:
                     names = [other for other in self.file.other_names(each) if other != WORLD]
                     name = names[0] if len(names) == 1 else each.name
                     # Of these joints the file has no name, or several.
-                    is_known = isinstance(each, Joint) and (each.type == "fixed" or len(names) > 1)
-                    own = _own_name(each) if is_known else name
+                    own = _own_name(each) if _is_fixed(each) or len(names) > 1 else name
                     self._add_text(kind, name, left.copy(name=own), each)
 
     @property
@@ -304,8 +303,12 @@ def _tells_of_uris(left: Node) -> bool:
     return any(find_annotation(each, SHAPE_OF) is not None for each in walk(left))
 
 
-def _own_name(node: Joint) -> str:
-    """The name of a joint in its model."""
+def _is_fixed(node: Node) -> bool:
+    return isinstance(node, Joint) and node.type == "fixed"
+
+
+def _own_name(node: Joint | Link | Model) -> str:
+    """The name of a part in its model."""
     return node.name.rpartition(SCOPE)[2]
 
 

@@ -9,6 +9,7 @@ from twinform.ir.frames import WORLD, FrameError
 from twinform.passes.carriers.annotations import WORLDBODY
 from twinform.passes.carriers.carriers import Keeper
 from twinform.passes.framework.pass_base import AssetPass
+from twinform.passes.legalise.to_mjcf.actuator_efforts import settle_efforts
 from twinform.passes.legalise.to_mjcf.bodies import body_elements
 from twinform.passes.legalise.to_mjcf.contacts import add_contacts
 from twinform.passes.legalise.to_mjcf.elements import make_element
@@ -117,6 +118,7 @@ def _write_sections(context: MjcfContext) -> None:
     add_equalities(context)
     add_contacts(context)
     add_kept_sections(context)
+    settle_efforts(context)
     add_texts(context)
     remove_made_names(context)
 

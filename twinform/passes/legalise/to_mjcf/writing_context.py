@@ -80,6 +80,7 @@ class MjcfContext:
         written_joints: for each joint, by its scoped name, the names of the MJCF joints that stand for it: none for one
             that is fixed.
         written_slides: the names of the other MJCF joints that stand for screws.
+        efforts: how hard joints of MJCF may be pushed by all their actuators, by the names of these joints.
         written_sites: the names of the sites of frames, by the scoped names of these.
         written_geoms: for each visual or collision, by its identity, the name of its geom.
         unnamed: kinds and names that parts have here alone, since they have none in MJCF.
@@ -104,6 +105,7 @@ class MjcfContext:
     written_bodies: dict[str, str] = field(default_factory=dict[str, str])
     written_joints: dict[str, tuple[str, ...]] = field(default_factory=dict[str, tuple[str, ...]])
     written_slides: dict[str, str] = field(default_factory=dict[str, str])
+    efforts: dict[str, float] = field(default_factory=dict[str, float])
     written_sites: dict[str, str] = field(default_factory=dict[str, str])
     written_geoms: dict[int, str] = field(default_factory=dict[int, str])
     unnamed: set[tuple[str, str]] = field(default_factory=set[tuple[str, str]])
