@@ -7,11 +7,11 @@ import pytest
 
 from tests.hostile.child import Outcome, twinform
 from tests.hostile.meshes import MESHES
+from tests.snippets import INERTIAL
 
 _SECONDS = 8
 """Of the processor for each process, of which one reads all meshes; alone, none may take more than three."""
 _SHAPE = '<{0}><geometry><mesh filename="{1}"/></geometry></{0}>'
-_INERTIAL = '<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>'
 _JOINT = '<joint name="j{0}" type="fixed"><parent link="l0"/><child link="l{0}"/></joint>'
 _SAID = {
     "nodes that double 17 times": "its nodes place 131,072 parts, of which 5,000 are read at most",
@@ -43,7 +43,7 @@ def _robot(folder: Path, names: Iterable[str]) -> dict[str, str]:
         files[name] = f"{number:03}.{kind}"
         (folder / files[name]).write_bytes(make())
     shapes = ["".join(_SHAPE.format(tag, file) for tag in ("visual", "collision")) for file in files.values()]
-    links = "".join(f'<link name="l{number}">{_INERTIAL}{each}</link>' for number, each in enumerate(shapes))
+    links = "".join(f'<link name="l{number}">{INERTIAL}{each}</link>' for number, each in enumerate(shapes))
     joints = "".join(_JOINT.format(number) for number in range(1, len(files)))
     (folder / "a.urdf").write_text(f'<robot name="a">{links}{joints}</robot>')
     return files

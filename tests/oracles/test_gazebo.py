@@ -13,6 +13,7 @@ from testbed.engines.gazebo.comparison import differences
 from testbed.engines.gazebo.differing import Tolerances, short
 from testbed.engines.gazebo.joints import chains
 from testbed.engines.gazebo.reading import console
+from tests.snippets import INERTIAL
 from twinform.cli import main
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -178,8 +179,7 @@ def test_what_is_migrated_from_gazebo_classic_runs(name: str, folder: Path) -> N
     assert not done.console.errors
 
 
-INERTIA = '<inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'
-LINK = f'<link name="{{}}">{INERTIA}</link>'
+LINK = f'<link name="{{}}">{INERTIAL}</link>'
 FREEDOMS = {"revolute": 1, "continuous": 1, "prismatic": 1, "fixed": 0}
 
 

@@ -9,6 +9,7 @@ from hypothesis import given, settings
 from lxml import etree
 
 import twinform
+from tests.snippets import STL
 from twinform.compiler import CompileError
 from twinform.compiler.output.emitting import document_text
 from twinform.ir import Box, Capsule, Cylinder, Document, Ellipsoid, Sphere
@@ -43,16 +44,6 @@ f 3 1 6
 f 2 3 6
 f 4 2 6
 f 1 4 6
-"""
-_TRIANGLE = """solid s
-facet normal 0 0 1
-outer loop
-vertex 0 0 0
-vertex 1 0 0
-vertex 0 1 0
-endloop
-endfacet
-endsolid
 """
 
 
@@ -101,7 +92,7 @@ def test_a_robot_with_meshes_of_a_package_is_made_readable(tmp_path: Path) -> No
     robot, made = tmp_path / "arm" / "urdf" / "arm.urdf", tmp_path / "made"
     for folder in (robot.parent, made, tmp_path / "arm" / "meshes"):
         folder.mkdir(parents=True)
-    (tmp_path / "arm/meshes/flat.STL").write_text(_TRIANGLE)
+    (tmp_path / "arm/meshes/flat.STL").write_bytes(STL)
     (tmp_path / "arm/meshes/part.obj").write_text(_OCTAHEDRON)
     meshes = ("package://arm/meshes/part.obj", "package://arm/meshes/flat.STL", "../meshes/part.obj")
     visuals = "".join(f'<visual><geometry><mesh filename="{each}"/></geometry></visual>' for each in meshes)

@@ -9,27 +9,19 @@ import pytest
 from testbed.edits import draw_edits
 from testbed.edits.judging import judge_edits, unedited
 from tests.profile import examples
+from tests.snippets import ARM
 from twinform.compiler import convert
 
 mujoco: Any = pytest.importorskip("mujoco")
 pytest.importorskip("numpy")
 
 _CASES = Path("tests/cases")
-_INERTIAL = '<inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'
-_ARM = f"""
-<robot name="arm">
-  <link name="base">{_INERTIAL}</link>
-  <link name="hand">{_INERTIAL}</link>
-  <joint name="wrist" type="revolute">
-    <parent link="base"/><child link="hand"/><axis xyz="0 0 1"/>
-    <limit lower="-1" upper="1" effort="2" velocity="3"/>
-    <safety_controller k_velocity="4"/>
-  </joint>
-  <transmission name="drive"><type>simple</type><joint name="wrist"/><actuator name="motor"/></transmission>
-  <gazebo><plugin name="p" filename="q"><text>two
+_BESIDE_JOINTS = b"""\
+<transmission name="drive"><type>simple</type><joint name="wrist"/><actuator name="motor"/></transmission>
+<gazebo><plugin name="p" filename="q"><text>two
 lines &lt; three</text></plugin></gazebo>
-</robot>
-""".encode()
+</robot>"""
+_ARM = ARM.replace(b"</robot>", _BESIDE_JOINTS)
 
 
 def test_what_mujoco_saves_comes_home() -> None:

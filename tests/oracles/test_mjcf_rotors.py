@@ -7,16 +7,16 @@ from typing import Any
 import pytest
 
 import twinform
+from tests.snippets import INERTIAL
 from twinform.testing import oracles
 
 mujoco: Any = pytest.importorskip("mujoco")
 
 _SDF = Path(__file__).parents[1] / "cases/to_mjcf/rotors.sdf"
-_INERTIAL = '<inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'
 _URDF = f"""
 <robot name="arm" xmlns:drake="http://drake.mit.edu">
   <link name="base"/>
-  <link name="hand">{_INERTIAL}</link>
+  <link name="hand">{INERTIAL}</link>
   <joint name="wrist" type="continuous"><parent link="base"/><child link="hand"/><axis xyz="0 0 1"/></joint>
   <transmission name="t">
     <type>transmission_interface/SimpleTransmission</type>

@@ -7,6 +7,7 @@ from hypothesis import assume, given
 
 from tests.profile import examples
 from tests.roundtrip.test_generated import text_of
+from tests.snippets import ARM, INERTIAL
 from twinform.compiler import CompileError, convert
 from twinform.ir import Document
 from twinform.testing import strategies
@@ -40,11 +41,10 @@ def test_a_model_comes_back_from_mjcf(model: Document) -> None:
     assert _mismatches(model) == []
 
 
-_INERTIAL = '<inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'
 _PUCK = f"""
 <robot name="table">
   <link name="base"/>
-  <link name="puck">{_INERTIAL}</link>
+  <link name="puck">{INERTIAL}</link>
   <joint name="glide" type="planar">
     <parent link="base"/><child link="puck"/>
     <origin xyz="1 0 0.5" rpy="0 0.1 0"/><axis xyz="0 0 1"/>
@@ -91,22 +91,9 @@ def test_words_of_a_newer_sdf_come_back_from_mjcf() -> None:
 
 
 def test_words_of_a_newer_urdf_come_back_from_mjcf() -> None:
-    newer = _ARM.replace(b'velocity="3"', b'velocity="3" jerk="5"')
+    newer = ARM.replace(b'velocity="3"', b'velocity="3" jerk="5"')
     trip = RoundTrip.of(newer, assert_valid(newer))
     assert [each.message for each in trip.mismatches(trip.back(convert(newer, to="mjcf").text))] == []
-
-
-_ARM = f"""
-<robot name="arm">
-  <link name="base">{_INERTIAL}</link>
-  <link name="hand">{_INERTIAL}</link>
-  <joint name="wrist" type="revolute">
-    <parent link="base"/><child link="hand"/><axis xyz="0 0 1"/>
-    <limit lower="-1" upper="1" effort="2" velocity="3"/>
-    <safety_controller k_velocity="4"/>
-  </joint>
-</robot>
-""".encode()
 
 
 @pytest.mark.parametrize(
@@ -119,7 +106,7 @@ _ARM = f"""
     ],
 )
 def test_an_edit_of_mjcf_wins_and_what_it_does_not_say_stays(old: str, new: str, gone: str) -> None:
-    there = convert(_ARM, to="mjcf").text
+    there = convert(ARM, to="mjcf").text
     assert old in there
     back = convert(there.replace(old, new).encode(), to="urdf").text
     assert gone not in back
@@ -128,7 +115,7 @@ def test_an_edit_of_mjcf_wins_and_what_it_does_not_say_stays(old: str, new: str,
 
 
 def test_what_belongs_to_a_joint_that_was_renamed_is_stale() -> None:
-    there = convert(_ARM, to="mjcf").text.replace('<joint name="wrist"', '<joint name="elbow"')
+    there = convert(ARM, to="mjcf").text.replace('<joint name="wrist"', '<joint name="elbow"')
     made = convert(there.encode(), to="urdf")
     assert "stale-carrier" in {each.rule.name for each in made.diagnostics}
     assert '<joint name="elbow"' in made.text
@@ -136,7 +123,7 @@ def test_what_belongs_to_a_joint_that_was_renamed_is_stale() -> None:
 
 
 def test_without_carriers_nothing_of_ours_is_written_and_the_ledger_has_it() -> None:
-    made = convert(_ARM, to="mjcf", carriers=False)
+    made = convert(ARM, to="mjcf", carriers=False)
     assert "twinform" not in made.text
     dropped = [each.message for each in made.ledger.entries if each.fate.value == "dropped"]
     assert "<velocity> of joint 'wrist' has no equivalent in MJCF" in dropped

@@ -6,9 +6,9 @@ from lxml import etree
 
 import twinform
 from tests.profile import examples
+from tests.snippets import INERTIAL
 from twinform.schemas import XmlElement
 
-_INERTIAL = '<inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'
 _NAMES = st.lists(st.sampled_from(["a", "b", "arm", "arm_joint", "__tip__"]), unique=True)
 _TYPES = st.sampled_from(["continuous", "fixed"])
 
@@ -19,7 +19,7 @@ def _robots(draw: st.DrawFn) -> tuple[str, list[str], list[str]]:
     links = ["base", *draw(_NAMES)]
     joints = draw(st.permutations(["a", "b", "arm", "arm_joint", "__tip__", "j"]))[: len(links) - 1]
     leaders = [joint for joint in joints if draw(st.booleans())]
-    parts = [f'<link name="{name}">{_INERTIAL}</link>' for name in links]
+    parts = [f'<link name="{name}">{INERTIAL}</link>' for name in links]
     for number, joint in enumerate(joints):
         mimic = f'<mimic joint="{draw(st.sampled_from([*leaders, "nobody"]))}"/>' if draw(st.booleans()) else ""
         ends = f'<parent link="{links[number]}"/><child link="{links[number + 1]}"/>'

@@ -4,7 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from tests.unit.compiler.packaging.robots import STL, write
+from tests.snippets import STL
+from tests.unit.compiler.packaging.robots import write
 
 from .conftest import Run
 

@@ -8,8 +8,9 @@ from pathlib import Path
 import pytest
 
 import twinform
+from tests.snippets import INERTIAL, STL
 from tests.unit.cli.conftest import GOOD, Run
-from tests.unit.compiler.packaging.robots import ARM, FILES, INERTIAL, PNG, STL, arm, write
+from tests.unit.compiler.packaging.robots import ARM, FILES, PNG, arm, write
 from twinform.testing.oracles.libsdformat import MISSING, available, models_of, named_files
 
 pytestmark = pytest.mark.slow

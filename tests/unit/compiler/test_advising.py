@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.snippets import INERTIAL
 from twinform import profiles
 from twinform.compiler import LoadOptions
 from twinform.compiler.advising import Advice, advise
@@ -76,10 +77,9 @@ def test_a_format_that_is_impossible_is_told() -> None:
     assert any("it cannot be written as URDF" in reason for reason in advice.choice.reasons)
 
 
-_INERTIAL = '<inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'
 _VISUAL = '<visual><geometry><sphere radius="1"/></geometry></visual>'
 _TWO_LINKS = (
-    f'<robot name="r"><link name="a">{_INERTIAL}{_VISUAL}</link><link name="b"><collision><geometry>'
+    f'<robot name="r"><link name="a">{INERTIAL}{_VISUAL}</link><link name="b"><collision><geometry>'
     '<sphere radius="1"/></geometry></collision></link><joint name="j" type="fixed"><parent link="a"/>'
     '<child link="b"/></joint>{}</robot>'
 )
@@ -101,7 +101,7 @@ def test_what_mujoco_reads_otherwise_of_a_urdf_is_told() -> None:
 
 def test_a_urdf_that_says_so_is_read_as_it_is() -> None:
     settings = '<mujoco><compiler fusestatic="false" discardvisual="false"/></mujoco>'
-    advice = _for_mujoco(_TWO_LINKS.format(settings).replace('<link name="b">', f'<link name="b">{_INERTIAL}').encode())
+    advice = _for_mujoco(_TWO_LINKS.format(settings).replace('<link name="b">', f'<link name="b">{INERTIAL}').encode())
     assert not [each for each in advice.choice.reasons if "MuJoCo reads" in each]
 
 

@@ -5,6 +5,7 @@ from pathlib import Path
 import pytest
 
 import twinform
+from tests.snippets import INERTIAL
 from twinform.compiler import Language
 from twinform.compiler.audit import audit
 
@@ -33,9 +34,8 @@ _JOINTS = {
     "gearbox": "<gearbox_ratio>2</gearbox_ratio><gearbox_reference_body>a</gearbox_reference_body>"
     "<axis><xyz>0 0 1</xyz></axis><axis2><xyz>0 0 1</xyz></axis2>",
 }
-_BODY = '<inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'
 _PLANAR = (
-    f'<robot name="r"><link name="a">{_BODY}</link><link name="b">{_BODY}</link>'
+    f'<robot name="r"><link name="a">{INERTIAL}</link><link name="b">{INERTIAL}</link>'
     '<joint name="j" type="planar"><parent link="a"/><child link="b"/><axis xyz="0 0 1"/></joint></robot>'
 )
 

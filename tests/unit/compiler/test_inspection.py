@@ -6,13 +6,12 @@ from typing import ClassVar
 import pytest
 
 import twinform
+from tests.snippets import INERTIAL
 from twinform.compiler import ReadOnlyPassError
 from twinform.diagnostics import Diagnostic, DiagnosticSink
 from twinform.diagnostics.rules import EMPTY_RANGE
 from twinform.ir import Document
 from twinform.passes import Pass, Pipeline, PipelineError, parse_pipeline
-
-BODY = '<inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'
 
 
 def missing(path: Path, *uris: str, name: str = "robot.urdf") -> list[tuple[str, str | None]]:
@@ -102,7 +101,7 @@ def test_a_json_document_is_looked_at_as_well(package: Path) -> None:
     assert [each.rule.name for each in twinform.check(file).diagnostics] == ["missing-file"]
 
 
-MOVING = f"""<robot name="r"><link name="a">{BODY}</link>
+MOVING = f"""<robot name="r"><link name="a">{INERTIAL}</link>
 <link name="b"/>
 <joint name="j" type="revolute"><parent link="a"/><child link="b"/><axis xyz="0 0 1"/>
 <limit lower="-20" upper="21" effort="1" velocity="1"/></joint></robot>"""

@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 import twinform
+from tests.snippets import INERTIAL
 from twinform.compiler.advising import assess_file
 from twinform.compiler.input.load_options import LoadOptions
 from twinform.profiles import parse
@@ -14,7 +15,6 @@ from twinform.testing.oracles.libsdformat import RobotRow, describe, describing
 
 pytestmark = pytest.mark.slow
 
-_INERTIAL = "<inertial><mass value='1'/><inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/></inertial>"
 _NAMES = (
     None,
     "c",
@@ -44,7 +44,7 @@ def _robot(arm: str, names: tuple[str | None, str | None], tagged: tuple[str, ..
 def _link(link: str, name: str | None, radius: int) -> str:
     called = "" if name is None else f" name='{name}'"
     shape = f"<collision{called}><geometry><sphere radius='{radius}'/></geometry></collision>"
-    return f"<link name='{link}'>{_INERTIAL}{shape}</link>"
+    return f"<link name='{link}'>{INERTIAL}{shape}</link>"
 
 
 def _found(text: str, reader: str = "gazebo") -> list[str]:
@@ -63,7 +63,7 @@ def test_a_static_robot_that_libsdformat_12_3_lets_move_is_found(tmp_path: Path)
     with describing() as read:
         for contents in product(_STATICS, repeat=3):
             tags = "".join(f"<gazebo reference=''>{each}</gazebo>" for each in contents)
-            urdf.write_text(f"<robot name='r'><link name='base'>{_INERTIAL}</link>{tags}</robot>")
+            urdf.write_text(f"<robot name='r'><link name='base'>{INERTIAL}</link>{tags}</robot>")
             made = twinform.convert(urdf, to="sdf", sdf_version="1.9")
             sdf.write_text(made.text)
             differs = read(urdf)["static"] != read(sdf)["static"]

@@ -7,6 +7,7 @@ import pytest
 from lxml import etree
 
 import twinform
+from tests.snippets import INERTIAL as BODY
 from twinform.compiler import LoadResult, check, dumps
 from twinform.compiler.input.front_ends import lower_tree
 from twinform.compiler.input.loading import LoadOptions, garbage_collection_paused, load, loads, read
@@ -165,7 +166,6 @@ def test_names_are_checked_in_spite_of_errors(*, strict: bool) -> None:
     assert not loaded.unreadable
 
 
-BODY = '<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>'
 JOINT = (
     f'{LINK}<link name="b">{BODY}</link><joint name="j" type="{{}}"><parent link="a"/><child link="{{}}"/>{{}}</joint>'
 )

@@ -5,6 +5,7 @@ import re
 import pytest
 
 import twinform
+from tests.snippets import INERTIAL
 from twinform.compiler.input.loading import LoadOptions, read
 from twinform.compiler.input.take_comments import comments_of
 from twinform.compiler.output.emitting import emit
@@ -12,7 +13,6 @@ from twinform.diagnostics import DiagnosticSink
 
 pytestmark = pytest.mark.slow
 
-BODY = '<inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'
 
 URDF = f"""<?xml version="1.0"?>
 <!-- License -->
@@ -23,7 +23,7 @@ URDF = f"""<?xml version="1.0"?>
   <material name="red"><color rgba="1 0 0 1"/></material>
   <!-- before base -->
   <link name="base">  <!-- behind base -->
-    {BODY}
+    {INERTIAL}
     <!-- before visual -->
     <visual>
       <!-- before origin -->
@@ -40,7 +40,7 @@ URDF = f"""<?xml version="1.0"?>
     <!-- before limit -->
     <limit lower="-1" upper="1" effort="1" velocity="1"/>
   </joint>
-  <link name="arm">{BODY}<!-- at the end of arm --></link>
+  <link name="arm">{INERTIAL}<!-- at the end of arm --></link>
   <!-- before the sensor -->
   <gazebo reference="arm">
     <sensor name="imu" type="imu"><!-- in the sensor --><update_rate>5</update_rate></sensor>

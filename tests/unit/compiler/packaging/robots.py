@@ -3,22 +3,13 @@
 import base64
 from pathlib import Path
 
+from tests.snippets import INERTIAL, STL
+
 PNG = base64.b64decode(
     b"iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNk+M9QDwADhgGAWjR9awAAAABJRU5ErkJggg=="
 )
-STL = b"""solid tip
-facet normal 0 0 1
-outer loop
-vertex 0 0 0
-vertex 1 0 0
-vertex 0 1 0
-endloop
-endfacet
-endsolid tip
-"""
 OBJ = b"mtllib arm.mtl\nusemtl skin\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n"
 MTL = b"newmtl skin\nmap_Kd ../textures/skin.png\n"
-INERTIAL = '<inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'
 ARM = f"""<?xml version="1.0"?>
 <robot name="arm">
   <material name="skin"><texture filename="package://arm_description/textures/skin.png"/></material>

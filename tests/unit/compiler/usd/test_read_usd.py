@@ -8,6 +8,7 @@ import pytest
 from click.testing import CliRunner
 
 import twinform
+from tests.snippets import INERTIAL
 from twinform.cli import main
 from twinform.diagnostics import Diagnostic
 from twinform.installation import install_command
@@ -15,8 +16,7 @@ from twinform.passes.mesh_jobs.job import MeshJob, MeshResult
 
 Sdf = pytest.importorskip("pxr.Sdf", reason="usd-core is not installed")
 
-_LINK = '<inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'
-URDF = f'<robot name="r"><link name="a">{_LINK}</link></robot>'.encode()
+URDF = f'<robot name="r"><link name="a">{INERTIAL}</link></robot>'.encode()
 _MASS = "float physics:mass = 1\nfloat3 physics:diagonalInertia = (1, 1, 1)"
 _BODY = 'prepend apiSchemas = ["PhysicsRigidBodyAPI", "PhysicsMassAPI"]'
 HEAD = '#usda 1.0\n(\n    defaultPrim = "r"\n    metersPerUnit = 1\n    upAxis = "Z"\n)\n'
@@ -268,7 +268,7 @@ def test_articulations_with_the_names_of_one_robot_are_that_robot(tmp_path: Path
         "j1", "k1"
     )
     path = _project(tmp_path, f'{HEAD}def Xform "w"\n{{\n{arms}}}\n')
-    links = "".join(f'<link name="{name}">{_LINK}</link>' for name in ("w", "a", "b", "l1", "m1"))
+    links = "".join(f'<link name="{name}">{INERTIAL}</link>' for name in ("w", "a", "b", "l1", "m1"))
     joint = '<joint name="{}" type="fixed"><parent link="{}"/><child link="{}"/></joint>'
     joints = "".join(
         joint.format(*each) for each in (("x", "w", "a"), ("y", "w", "b"), ("j1", "a", "l1"), ("k1", "b", "m1"))

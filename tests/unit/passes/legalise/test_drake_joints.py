@@ -3,11 +3,11 @@
 import pytest
 
 import twinform
+from tests.snippets import INERTIAL
 from twinform.diagnostics import Diagnostic
 
-_BODY = '<inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'
 _ROBOT = f"""<robot xmlns:drake="http://drake.mit.edu" name="r">
-<link name="a">{_BODY}</link><link name="b">{_BODY}</link>
+<link name="a">{INERTIAL}</link><link name="b">{INERTIAL}</link>
 <drake:joint name="j" type="{{}}"><parent link="{{}}"/><child link="b"/>{{}}</drake:joint></robot>"""
 _PITCH = '<drake:screw_thread_pitch value="{}"/>'
 
@@ -48,7 +48,7 @@ def test_an_undeclared_prefix_is_that_of_drake() -> None:
 
 
 def test_drake_has_a_body_called_world() -> None:
-    text = _ROBOT.format("ball", "world", '<origin xyz="0 0 1"/>').replace(f'<link name="a">{_BODY}</link>', "")
+    text = _ROBOT.format("ball", "world", '<origin xyz="0 0 1"/>').replace(f'<link name="a">{INERTIAL}</link>', "")
     sdf = twinform.convert(text.encode(), to="sdf").text
     assert "<pose>0 0 1 0 0 0</pose>" in sdf.replace(' relative_to="__model__"', "")
     assert "<parent>world</parent>" in sdf

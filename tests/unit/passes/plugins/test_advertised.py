@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 import twinform
 from tests.profile import examples
+from tests.snippets import INERTIAL
 from tests.unit.passes.plugins.advertised import SENSORS, SYSTEMS, WITHOUT, WITHOUT_SENSORS, Row, Sdf, SensorSdf
 from twinform.passes.plugins.catalog import releases, sensors, system, systems
 from twinform.passes.plugins.topics import topics_of
@@ -75,10 +76,7 @@ def sdf(world: str, models: tuple[str, ...], content: str) -> twinform.Document:
     return twinform.loads(f"<sdf version='1.11'><world name={quoteattr(world)}>{content}</world></sdf>")
 
 
-MASS = "<inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' iyz='0'/></inertial>"
-
-
-def urdf(model: str, content: str, links: str = f"<link name='base'>{MASS}</link>") -> twinform.Document:
+def urdf(model: str, content: str, links: str = f"<link name='base'>{INERTIAL}</link>") -> twinform.Document:
     return twinform.loads(f"<robot name={quoteattr(model)}>{links}{content}</robot>")
 
 
@@ -165,7 +163,7 @@ def test_the_topics_of_a_sensor_are_those_of_its_source(type_: str, data: st.Dat
 def robot(model: str, holder: tuple[str, str], sensor: str, *, kept: bool) -> twinform.Document:
     """A robot whose sensor is on a link that a fixed joint holds, or on that joint, which Gazebo keeps or not."""
     link = "tip" if holder[0] == "joint" else holder[1]
-    links = f"<link name='root link'>{MASS}</link><link name={quoteattr(link)}>{MASS}</link>"
+    links = f"<link name='root link'>{INERTIAL}</link><link name={quoteattr(link)}>{INERTIAL}</link>"
     joint = f"<joint name='j' type='fixed'><parent link='root link'/><child link={quoteattr(link)}/></joint>"
     keeping = "<gazebo reference='j'><preserveFixedJoint>true</preserveFixedJoint></gazebo>" if kept else ""
     return urdf(model, f"{joint}{keeping}<gazebo reference={quoteattr(holder[1])}>{sensor}</gazebo>", links)

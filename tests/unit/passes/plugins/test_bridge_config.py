@@ -7,6 +7,7 @@ import pytest
 import yaml
 
 import twinform
+from tests.snippets import INERTIAL
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document
 from twinform.passes.plugins.bridge_config import Bridge, BridgeConfig, bridge_yaml, bridges
@@ -252,9 +253,8 @@ def test_a_nested_model_publishes_below_all_its_parents() -> None:
     assert [row[1] for row in rows(outer)] == ["/world/w/model/r/model/arm/joint_state"]
 
 
-MASS = '<inertial><mass value="1"/><inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>'
-ROBOT = f"""<robot name="my robot"><link name="base">{MASS}</link><link name="mast">{MASS}</link>
-<link name="tip">{MASS}</link><joint name="a" type="fixed"><parent link="base"/><child link="mast"/></joint>
+ROBOT = f"""<robot name="my robot"><link name="base">{INERTIAL}</link><link name="mast">{INERTIAL}</link>
+<link name="tip">{INERTIAL}</link><joint name="a" type="fixed"><parent link="base"/><child link="mast"/></joint>
 <joint name="b" type="fixed"><parent link="mast"/><child link="tip"/></joint>{{}}</robot>"""
 
 

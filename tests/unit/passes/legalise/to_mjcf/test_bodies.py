@@ -3,14 +3,13 @@
 import pytest
 
 import twinform
+from tests.snippets import INERTIAL
 from twinform.compiler import CompileError
 from twinform.passes.legalise.to_mjcf.bodies import MOST_DEEP
 
-_INERTIAL = '<inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'
-
 
 def _chain(count: int) -> bytes:
-    links = "".join(f'<link name="l{i}">{_INERTIAL}</link>' for i in range(count))
+    links = "".join(f'<link name="l{i}">{INERTIAL}</link>' for i in range(count))
     joints = "".join(
         f'<joint name="j{i}" type="continuous"><parent link="l{i - 1}"/><child link="l{i}"/></joint>'
         for i in range(1, count)

@@ -5,11 +5,11 @@ from pathlib import Path
 import pytest
 
 import twinform
+from tests.snippets import INERTIAL
 
 _CASE = Path(__file__).parents[4] / "cases/convert/closed_loops.urdf"
-_BODY = '<inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'
 _ROBOT = f"""<robot xmlns:drake="http://drake.mit.edu" name="r">
-<link name="a">{_BODY}</link><link name="b">{_BODY}</link><link name="c">{_BODY}</link>
+<link name="a">{INERTIAL}</link><link name="b">{INERTIAL}</link><link name="c">{INERTIAL}</link>
 <joint name="ab" type="continuous"><parent link="a"/><child link="b"/><axis xyz="0 0 1"/></joint>
 <joint name="ac" type="continuous"><parent link="a"/><child link="c"/><origin xyz="1 0 0"/><axis xyz="0 0 1"/></joint>
 {{}}</robot>"""

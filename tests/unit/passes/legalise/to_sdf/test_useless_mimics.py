@@ -1,9 +1,9 @@
 """Mimics of what has no axis: SDF does not have them, and they come back unless an edit would make them act."""
 
 import twinform
+from tests.snippets import INERTIAL
 
-_INERTIAL = '<inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>'
-_LINKS = "".join(f'<link name="{name}">{_INERTIAL}</link>' for name in ("base", "a", "b"))
+_LINKS = "".join(f'<link name="{name}">{INERTIAL}</link>' for name in ("base", "a", "b"))
 _ENDS = '<parent link="base"/><child link="{}"/><axis xyz="0 0 1"/>'
 _ROBOT = (
     f'<robot name="r">{_LINKS}<joint name="left" type="continuous">{_ENDS.format("a")}</joint>'
