@@ -25,7 +25,9 @@ DOCUMENT = "document"
 PREFIXES = "prefix"
 """The annotation in that carrier with a namespace of the source and the prefix that it had there."""
 SEVERAL = "several"
-"""The annotation in that carrier of models that are in no world, and on a model of several trees of bodies."""
+"""The annotation in that carrier of models that are in no world, and on a model that has all trees of bodies."""
+TREE = "tree"
+"""The annotation on a model of a world with a body at the top that is in it: `<tf:tree body="base"/>`."""
 SHAPE_OF = "shape"
 """The annotation on a visual or collision with the shape for which a file stands, or whose URI became a path."""
 AXES = "axes"
@@ -58,6 +60,12 @@ class TextName(NamedTuple):
     attached: str
     kind: str
     name: str
+
+
+def annotated_trees(model: Model) -> list[str]:
+    """The bodies at the top that an annotated model of a world has."""
+    elements = (part.element for part in model.opaque)
+    return [each.get("body") or "" for each in elements if each is not None and each.name == f"{{{NAMESPACE}}}{TREE}"]
 
 
 def text_name(kind: str, name: str = "") -> str:

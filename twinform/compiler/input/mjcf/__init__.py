@@ -6,11 +6,11 @@ links, joints and frames, and carriers add what MJCF cannot say.
 """
 
 from twinform.compiler.input.load_options import LoadOptions
-from twinform.compiler.input.mjcf.carried_texts import is_in_world, several_trees, take_texts
+from twinform.compiler.input.mjcf.carried_texts import take_texts
 from twinform.compiler.input.mjcf.lower import lower
+from twinform.compiler.input.mjcf.model_trees import WrittenModels
 from twinform.compiler.input.mjcf.normalize import check_classes, normalize
 from twinform.compiler.input.mjcf.note_notation import note_notation
-from twinform.compiler.input.mjcf.one_model import join_trees
 from twinform.ir import Document
 from twinform.schemas import Context, XmlElement
 
@@ -27,10 +27,7 @@ def lower_mjcf(root: XmlElement, context: Context, load_options: LoadOptions) ->
         return None
     note_notation(root, context.sink)
     texts = take_texts(canonical, context)
-    several = several_trees(texts)
-    document = lower(canonical, context, load_options, root, in_world=is_in_world(texts, several))
-    if several is not None and len(document.models) > 1:
-        document = join_trees(document, several)
+    document = lower(canonical, context, load_options, root, WrittenModels.of(texts))
     if not texts:
         return document
     from twinform.compiler.input.mjcf.merge_texts import merge_texts  # noqa: PLC0415 - most files have no carriers

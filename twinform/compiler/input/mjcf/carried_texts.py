@@ -5,11 +5,10 @@ from typing import NamedTuple
 
 from twinform.diagnostics import DiagnosticSink, Fate, Source
 from twinform.diagnostics.rules import STALE_CARRIER
-from twinform.ir import Model, Node, map_references
+from twinform.ir import Node, map_references
 from twinform.ir.frames import MODEL, WORLD
 from twinform.passes.carriers.absorb import CarrierError
-from twinform.passes.carriers.annotations import find_annotation
-from twinform.passes.carriers.mjcf_texts import DOCUMENT, KINDS, SEVERAL, parse_text_name, read_node
+from twinform.passes.carriers.mjcf_texts import DOCUMENT, KINDS, parse_text_name, read_node
 from twinform.schemas import Context, XmlElement
 
 
@@ -36,22 +35,6 @@ def take_texts(root: XmlElement, context: Context) -> tuple[CarriedText, ...]:
         if parent is not None and not len(custom):
             parent.remove(custom)
     return tuple(found)
-
-
-def several_trees(texts: Iterable[CarriedText]) -> str | None:
-    """The name of the model whose links are several trees of bodies in the file; None where each is its own."""
-    models = (each.node for each in texts if isinstance(each.node, Model))
-    return next((each.name for each in models if find_annotation(each, SEVERAL) is not None), None)
-
-
-def is_in_world(texts: Iterable[CarriedText], several: str | None) -> bool | None:
-    """Whether carriers say that what the file has was in a world of SDF; None where none of them knows."""
-    if several is not None:
-        return False
-    kinds = {each.kind: each.node for each in texts}
-    if "world" in kinds:
-        return True
-    return False if DOCUMENT in kinds and find_annotation(kinds[DOCUMENT], SEVERAL) is None else None
 
 
 def _read(text: XmlElement, context: Context) -> CarriedText | None:

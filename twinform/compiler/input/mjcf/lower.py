@@ -3,7 +3,7 @@
 A file with nothing but one tree of bodies is a model, as are robots in libraries; lights and cameras may stand beside
 it. Any other file is a world: it has shapes that belong to no body, such as a floor, or several trees. Each tree of a
 world is a model of its own, and the shapes of the world itself are a static model. The only tree of a file has the name
-of the file, and of several each has that of its first body.
+of the file, and of several each has that of its first body. Carriers may say otherwise: see `model_trees.py`.
 """
 
 from collections.abc import Iterable
@@ -20,7 +20,8 @@ from twinform.compiler.input.mjcf.lower_inertials import MassSettings, body_iner
 from twinform.compiler.input.mjcf.lower_lights import lower_light
 from twinform.compiler.input.mjcf.lower_option import lower_option
 from twinform.compiler.input.mjcf.lower_sensors import SiteSensor, by_site, lower_sensor
-from twinform.compiler.input.mjcf.names import NameScope, name_mark, safe_name
+from twinform.compiler.input.mjcf.model_trees import ModelTrees, WrittenModels
+from twinform.compiler.input.mjcf.names import NameScope, name_mark
 from twinform.compiler.input.mjcf.pieces import Piece, pose_of
 from twinform.compiler.input.mjcf.remainders import RemainderKeeper, in_sections, with_rest
 from twinform.compiler.input.mjcf.sections import Owners, Sections
@@ -29,7 +30,9 @@ from twinform.ir import Document, Element, Format, Frame, Joint, Light, Link, Mo
 from twinform.passes.carriers.annotations import MADE_NAME, WORLDBODY, annotation, with_annotation
 from twinform.passes.carriers.carriers import NAMESPACE, PREFIX
 from twinform.passes.legalise.to_mjcf.actuator_efforts import Actuator, efforts
+from twinform.passes.legalise.to_mjcf.file_models import UNNAMED_MODEL
 from twinform.passes.legalise.to_mjcf.kept_mjcf import KNOWN, ROOT
+from twinform.passes.legalise.to_mjcf.writing_context import safe_name
 from twinform.passes.shared.mesh_solids import Meshes
 from twinform.passes.shared.nodes import reserve_name
 from twinform.schemas import DEFAULT_SDF_VERSION, Context, XmlElement
@@ -38,33 +41,32 @@ _MARK = Element.unchecked(name=ROOT)
 """What says that a model or world was read of MJCF, so that it is written as MJCF has it."""
 _NAMED = frozenset({"body", "site", *JOINTS})
 """What becomes a link, frame or joint."""
-_MODEL = "model"
-"""The name of a model in a file that has none."""
 
 
 def lower(
-    root: XmlElement, context: Context, load_options: LoadOptions, file: XmlElement, *, in_world: bool | None = None
+    root: XmlElement,
+    context: Context,
+    load_options: LoadOptions,
+    file: XmlElement,
+    written: WrittenModels = WrittenModels(),  # noqa: B008 - it never changes
 ) -> Document:
-    """Build the document of a canonical tree, which was made of the tree of a file.
-
-    With `in_world` even a single tree of bodies is a model in a world; where it is False, several are in none, and
-    what is around them belongs to the first.
-    """
-    lowering = FileLowering(Piece(root, context.file), context, load_options, file)
-    lowering.in_world = in_world
-    return lowering.document()
+    """Build the document of a canonical tree, which was made of the tree of a file with such models."""
+    return FileLowering(Piece(root, context.file), context, load_options, file, written).document()
 
 
 class FileLowering:
     """Lowers one file; what is left of its sections goes to the model that it is about, or to the world."""
 
-    def __init__(self, root: Piece, context: Context, load_options: LoadOptions, file: XmlElement) -> None:
+    def __init__(
+        self, root: Piece, context: Context, load_options: LoadOptions, file: XmlElement, written: WrittenModels
+    ) -> None:
         self.root = root
-        self.in_world: bool | None = None
+        self.in_world = written.in_world
         self.sections = Sections(root)
         self.keeper = RemainderKeeper(context.sink, file)
-        self.trees = [each for each in self.sections.inside(WORLDBODY) if each.tag == "body"]
-        self.owners = Owners(self.trees, self.sections)
+        trees = [each for each in self.sections.inside(WORLDBODY) if each.tag == "body"]
+        self.models = written.grouped(trees)
+        self.owners = Owners([each.trees for each in self.models], self.sections)
         self.assets = AssetTable(self.sections.of("asset"))
         settings = MassSettings.of(self.sections.of("compiler"))
         meshes = Meshes(LocalAssets(load_options.search, Path(unexpanded_name(context.file))))
@@ -72,7 +74,7 @@ class FileLowering:
         solids = GeomSolids(self.assets, meshes, context.sink, by_bounds=by_bounds)
         masks = ContactMasks.of(each for each in root.walk() if each.tag == "geom")
         self.geoms = GeomLowering(self.assets, masks, self.keeper, solids)
-        bodies = [each for tree in self.trees for each in tree.bodies()]
+        bodies = [each for tree in trees for each in tree.bodies()]
         self.inertias = {each: body_inertia(each, settings, solids) for each in bodies}
         self.scale = scale_of(settings, [each.solid.mass for each in self.inertias.values()])
         parts = (each.peek("name") for each in root.walk() if each.tag in _NAMED)
@@ -87,9 +89,9 @@ class FileLowering:
     @property
     def is_world(self) -> bool:
         """Whether the file is a world and not a model; without bodies it is one."""
-        if self.in_world is not None and self.trees:
+        if self.in_world is not None and self.models:
             return self.in_world
-        return len(self.trees) != 1 or self._has_ground
+        return len(self.models) != 1 or self._has_ground
 
     @property
     def _has_ground(self) -> bool:
@@ -99,12 +101,10 @@ class FileLowering:
     def document(self) -> Document:
         """Build the document."""
         name = self.root.take("model")
-        alone = len(self.trees) == 1
-        taken = {WORLDBODY} if self._has_ground else set[str]()
-        models = [
-            self._model(number, tree, name if alone or not self.is_world else tree.name, taken)
-            for number, tree in enumerate(self.trees)
-        ]
+        taken = {each.name for each in self.models if each.name is not None}
+        if self._has_ground:
+            taken.add(WORLDBODY)
+        models = [self._model(number, each, name, taken) for number, each in enumerate(self.models)]
         models = [with_rest(each, in_sections(self._left_of(number))) for number, each in enumerate(models)]
         if not self.is_world:
             return self._in_sdf(models=(*models, *self._ground()))
@@ -120,26 +120,36 @@ class FileLowering:
             source=self.root.source,
         )
 
-    def _model(self, number: int, tree: Piece, name: str | None, taken: set[str]) -> Model:
-        names = NameScope(self.written_names)
+    def _model(self, number: int, found: ModelTrees, file_name: str | None, taken: set[str]) -> Model:
+        first, names = found.trees[0], NameScope(self.written_names)
         lowering = TreeLowering(
-            tree, self.geoms, self.keeper, self.inertias, self.scale, self.followers, self.efforts, names
+            found.trees,
+            found.at,
+            self.geoms,
+            self.keeper,
+            self.inertias,
+            self.scale,
+            self.followers,
+            self.efforts,
+            names,
         )
         parts = lowering.lower()
         self._close_loops(number, lowering, parts)
         self._add_sensors(number, parts)
-        given = reserve_name(safe_name(name or _MODEL), taken, self.numbers)
+        is_of_file = len(self.models) == 1 or not self.is_world
+        name = found.name or (file_name if is_of_file else first.name)
+        given = found.name or reserve_name(safe_name(name or UNNAMED_MODEL), taken, self.numbers)
         is_static = lowering.is_static
         return Model.unchecked(
             name=given,
-            pose=pose_of(tree.transform(), source=tree.source),
+            pose=pose_of(first.transform() if found.at is None else found.at, source=first.source),
             static=True if is_static else None,
             self_collide=None if is_static else touches_itself(parts.masks),
             links=tuple(parts.links),
             joints=tuple(parts.joints),
             frames=tuple(parts.frames),
             opaque=name_mark(name, given),
-            source=tree.source,
+            source=first.source,
         )
 
     def _close_loops(self, number: int, lowering: TreeLowering, parts: TreeParts) -> None:
@@ -186,9 +196,9 @@ class FileLowering:
             parts.joints[above] = joint.copy(sensors=(*joint.sensors, sensor))
 
     def _left_of(self, number: int) -> dict[str, list[Element]]:
-        """Return what no node says of the sections and is about one tree alone, once all trees have been lowered.
+        """Return what no node says of the sections and is about one model alone, once all have been lowered.
 
-        What is about none or several belongs to the world, or else to the model of the first tree.
+        What is about none or several belongs to the world, or else to the first model.
         """
         left = {} if number and not self.is_world else {ROOT: [_MARK]}
         for tag in self.sections.tags:
@@ -207,7 +217,7 @@ class FileLowering:
         return self.keeper.rest_element(piece) if piece.taken else self.keeper.whole(piece, section)
 
     def _left(self, scene: list[Element]) -> dict[str, list[Element]]:
-        """Return what no node says of all sections, and is about no tree or several."""
+        """Return what no node says of all sections, and is about no model or several."""
         left: dict[str, list[Element]] = {WORLDBODY: scene} if scene else {}
         self.geoms.solids.keep_what_is_fitted_to()
         for section in self.sections.all:
@@ -259,7 +269,7 @@ class FileLowering:
             for each in self.sections.inside(WORLDBODY)
             if each.tag != "body" and not each.is_settled
         ]
-        given = safe_name(name or _MODEL)
+        given = safe_name(name or UNNAMED_MODEL)
         rest = in_sections(self._left(left))
         return World.unchecked(
             name=given,

@@ -1,11 +1,11 @@
-"""Bodies of one tree as the model that they are: links, joints and frames.
+"""Bodies of one tree, or of several, as the model that they are: links, joints and frames.
 
 A body is a link in the frame of the link around it. Where it has several joints, links without mass stand between them,
 all in the place of the body, and the joints keep their names and their order: the first is nearest to the parent. A
 body without a joint is fixed to its parent, or to the world.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import NamedTuple
 
@@ -20,6 +20,7 @@ from twinform.compiler.input.mjcf.pieces import Piece, pose_of
 from twinform.compiler.input.mjcf.remainders import RemainderKeeper, holder, in_sections, with_rest
 from twinform.ir import Element, Frame, Joint, Light, Link, Mimic, Opaque, Pose, Sensor
 from twinform.ir.frames import WORLD
+from twinform.ir.transform import Transform
 from twinform.passes.carriers.annotations import MADE_NAME, annotate_synthesized, with_annotation
 from twinform.passes.carriers.token_mass import TOKEN
 from twinform.passes.legalise.changed_names import fixed_joint_name
@@ -28,7 +29,7 @@ JOINTS = ("joint", "freejoint")
 
 
 class TreeParts(NamedTuple):
-    """What the bodies of a tree are in SDF.
+    """What the bodies of a model are in SDF.
 
     `masks` are those of the geoms of each link. `links_of` has the
     names of links by those of bodies, `sites` the link and the frame of each named site.
@@ -50,15 +51,17 @@ class _Placed(NamedTuple):
 
 
 class TreeLowering:
-    """Lowers the bodies of one tree, which become one model.
+    """Lowers the bodies of a tree, or of several, which become one model.
 
-    `inertias` has the mass of each body, `followers` the equalities that are mimics by the names of their followers,
-    and `efforts` what actuators do to joints; `names` is new.
+    The frame of the model is that of its only root, unless it is said where the model is: then all roots are placed in
+    that frame. `inertias` has the mass of each body, `followers` the equalities that are mimics by the names of their
+    followers, and `efforts` what actuators do to joints; `names` is new.
     """
 
     def __init__(
         self,
-        root: Piece,
+        roots: Sequence[Piece],
+        at: Transform | None,
         geoms: GeomLowering,
         keeper: RemainderKeeper,
         inertias: Mapping[Piece, WrittenInertia],
@@ -67,8 +70,9 @@ class TreeLowering:
         efforts: Mapping[str, float],
         names: NameScope,
     ) -> None:
-        self.root = root
+        self.roots = tuple(roots)
         self.names = names
+        self._at = at
         self._geoms = geoms
         self._keeper = keeper
         self._inertias = inertias
@@ -80,23 +84,19 @@ class TreeLowering:
 
     @property
     def is_static(self) -> bool:
-        """Whether nothing in the tree moves."""
-        return not any(each.tag in JOINTS for each in self.root.walk())
-
-    @property
-    def is_free(self) -> bool:
-        """Whether its root floats."""
-        return any(joint_type(each) == FREE for each in self.root.all_of(*JOINTS))
+        """Whether nothing in the model moves."""
+        return not any(each.tag in JOINTS for root in self.roots for each in root.walk())
 
     @cached_property
     def mocap(self) -> frozenset[str | None]:
         """The names of bodies that only a program moves: what holds another one to them is no joint."""
-        return frozenset(each.name for each in self.root.walk() if each.peek("mocap") == "true")
+        found = (each for root in self.roots for each in root.walk())
+        return frozenset(each.name for each in found if each.peek("mocap") == "true")
 
     def lower(self) -> TreeParts:
         """Build the links, joints and frames of all bodies, parents first."""
-        self._name([*self.root.bodies()])
-        waiting = [_Placed(self.root, None)]
+        self._name([body for root in self.roots for body in root.bodies()])
+        waiting = [_Placed(root, None) for root in reversed(self.roots)]
         while waiting:
             here = waiting.pop()
             link = self._body(here)
@@ -120,8 +120,9 @@ class TreeLowering:
         for body in bodies:
             if body.name is not None:
                 self.parts.links_of[body.name] = self.names.give(body, "", "link")
-        if self.root.name is None:
-            self.names.give(self.root, "body", "link")
+        for root in self.roots:
+            if root.name is None:
+                self.names.give(root, "body", "link")
         unnamed = [(body, each) for body in bodies for each in body.all_of("body") if each.name is None]
         for body, inner in unnamed:
             self.names.give(inner, f"{self.names.of(body)}_body", "link")
@@ -131,9 +132,7 @@ class TreeLowering:
         body = here.body
         body.is_settled = True
         name = self.names.of(body)
-        at = body.transform()
-        is_root = here.parent is None
-        pose = None if is_root else pose_of(at, here.parent, body.source)
+        pose = self._pose(here)
         inertial, weightless = inertial_of(self._inertias[body], self._scale, self._keeper)
         shapes = self._geoms.lower(body, name)
         self.parts.masks.append([Bits.of(geom) for geom in body.all_of("geom")])
@@ -164,6 +163,17 @@ class TreeLowering:
         self._frames(body, name)
         return name
 
+    def _pose(self, here: _Placed) -> Pose | None:
+        """Return where a body is in the link that it stands on, and a root in the frame of the model."""
+        at = here.body.transform()
+        if here.parent is not None:
+            return pose_of(at, here.parent, here.body.source)
+        if self._at is None:
+            return None
+        if not self._at.is_identity:
+            at = self._at.inverse().compose(at)
+        return pose_of(at, source=here.body.source)
+
     def _between(self, joints: list[Piece], pose: Pose | None) -> list[Link]:
         """Return the links between the joints of a body, all in its place."""
         made = [self.names.make(f"{self.names.of(each)}_link") for each in joints[:-1]]
@@ -175,7 +185,7 @@ class TreeLowering:
     def _hold(self, here: _Placed, name: str, joints: list[Piece], between: list[str]) -> None:
         """Build the joints of a body, or the fixed one where it has none and is no floating or static root."""
         if not joints:
-            if here.parent is not None or not (self.is_free or self.is_static):
+            if here.parent is not None or not (_is_free(here.body) or self.is_static):
                 self.parts.joints.append(self._fixed(here, name))
             return
         ends = [here.parent or WORLD, *between, name]
@@ -243,3 +253,8 @@ class TreeLowering:
                 continue
             left.append(self._keeper.whole(each))
         return (holder(*left),) if left else ()
+
+
+def _is_free(body: Piece) -> bool:
+    """Whether a body floats."""
+    return any(joint_type(each) == FREE for each in body.all_of(*JOINTS))

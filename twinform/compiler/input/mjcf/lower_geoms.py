@@ -13,7 +13,7 @@ from twinform.compiler.input.mjcf.contact_masks import Bits, ContactMasks
 from twinform.compiler.input.mjcf.geom_solids import GeomSolids
 from twinform.compiler.input.mjcf.lower_materials import is_invisible, lower_material
 from twinform.compiler.input.mjcf.lower_shapes import PlacedShape, lower_shape
-from twinform.compiler.input.mjcf.names import name_mark, safe_name
+from twinform.compiler.input.mjcf.names import name_mark
 from twinform.compiler.input.mjcf.pieces import Piece, pose_of
 from twinform.compiler.input.mjcf.remainders import RemainderKeeper, holder
 from twinform.ir import Collision, Element, Geometry, Opaque, Pose, Surface, Visual
@@ -25,6 +25,7 @@ from twinform.passes.legalise.to_mjcf.friction import (
     USUAL_FRICTION,
     torsional_part,
 )
+from twinform.passes.legalise.to_mjcf.writing_context import safe_name
 from twinform.passes.shared.nodes import reserve_name
 
 _SHOWN = 3

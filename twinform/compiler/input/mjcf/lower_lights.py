@@ -2,12 +2,13 @@
 
 import math
 
-from twinform.compiler.input.mjcf.names import name_mark, safe_name
+from twinform.compiler.input.mjcf.names import name_mark
 from twinform.compiler.input.mjcf.number_lists import Numbers
 from twinform.compiler.input.mjcf.pieces import Piece, placed_at, pose_of
 from twinform.compiler.input.mjcf.remainders import RemainderKeeper
 from twinform.ir import Color, Element, Light, Opaque, Pose, Sensor
 from twinform.ir.transform import Transform
+from twinform.passes.legalise.to_mjcf.writing_context import safe_name
 from twinform.schemas import format_value
 
 _FIXED = "fixed"

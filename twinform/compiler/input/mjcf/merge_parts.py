@@ -11,13 +11,18 @@ from twinform.compiler.input.mjcf.joined_joints import join_joints
 from twinform.compiler.input.mjcf.renamed_parts import name_in_file
 from twinform.compiler.input.mjcf.restore_contacts import kept_apart
 from twinform.compiler.input.mjcf.restore_loops import is_loop, loops_back
-from twinform.compiler.input.mjcf.restore_sensors import sensors_back, without_parts_of_sensors
+from twinform.compiler.input.mjcf.restore_sensors import (
+    restored_settings,
+    sensors_back,
+    without_lights,
+    without_parts_of_sensors,
+)
 from twinform.compiler.input.mjcf.spellings import Spellings
+from twinform.compiler.input.mjcf.written_models import with_written_models, without_stand_ins
 from twinform.diagnostics import DiagnosticSink
-from twinform.ir import Document, Frame, Joint, Link, Model, Node, replace_fields, rewrite
+from twinform.ir import Document, Frame, Joint, Link, Model, Node, World, replace_fields, rewrite
 from twinform.ir.frames import WORLD
 from twinform.passes.carriers.annotations import MADE_NAME, annotation, with_annotation, without_annotation
-from twinform.passes.carriers.mjcf_texts import SEVERAL
 from twinform.passes.carriers.partial_nodes import WRITTEN, Merging, is_rest, written_name, written_names
 from twinform.passes.legalise.changed_names import fixed_joint_name
 from twinform.schemas import XmlElement
@@ -27,8 +32,10 @@ AnyPart = TypeVar("AnyPart", Link, Joint, Frame, Model)
 
 def merge_parts(document: Document, texts: tuple[CarriedText, ...], root: XmlElement, sink: DiagnosticSink) -> Document:
     """A document of MJCF with what carriers hold of its links and joints."""
-    merging = _PartMerging(texts, root, sink)
-    document = rewrite(document, Model, merging.in_model)
+    models = [each for each in nodes_of(texts, "model") if isinstance(each, Model)]
+    document, models = with_written_models(document, models, sink)
+    merging = _PartMerging(texts, models, root, sink)
+    document = merging.in_document(rewrite(document, Model, merging.in_model))
     merging.report_stale()
     return document
 
@@ -36,27 +43,35 @@ def merge_parts(document: Document, texts: tuple[CarriedText, ...], root: XmlEle
 class _PartMerging:
     """Merges the carriers of one file."""
 
-    def __init__(self, texts: tuple[CarriedText, ...], root: XmlElement, sink: DiagnosticSink) -> None:
+    def __init__(
+        self, texts: tuple[CarriedText, ...], models: Iterable[Model], root: XmlElement, sink: DiagnosticSink
+    ) -> None:
         self.root, self.sink = root, sink
         links = [each for each in nodes_of(texts, "link") if isinstance(each, Link)]
         joints = [each for each in nodes_of(texts, "joint") if isinstance(each, Joint)]
-        back = sensors_back(links, joints, None, root, sink)
+        world = next((each for each in nodes_of(texts, "world") if isinstance(each, World)), None)
+        back = sensors_back(links, joints, world, root, sink)
+        self._world = back.world
         self._merging = Merging(Spellings(root))
         self._parts = back.parts
         self._loops = [each for each in back.joints if is_loop(each)]
         self._joints = [each for each in back.joints if not is_loop(each)]
-        # A fixed joint has no name in the file, and is known by the body that it holds.
-        self._of_bodies = {each.child: each for each in self._joints if each.type == "fixed"}
+        # A fixed joint and one of a static model have no name in the file, and are known by the body that they hold.
+        self._of_bodies = {each.child: each for each in self._joints if each.type == "fixed" or not is_rest(each)}
         self._used = set[int]()
-        others = (each.node for each in texts if each.kind not in {"link", "joint"})
+        others = (each.node for each in texts if each.kind not in {"link", "joint", "model", "world"})
         alone = (each for each in self._joints if len(written_names(each)) == 1)
-        self._partials = {(type(each), written_name(each)): each for each in (*back.links, *alone, *others)}
+        self._partials = {(type(each), written_name(each)): each for each in (*back.links, *alone, *models, *others)}
 
     def in_model(self, model: Model) -> Model:
         """A model with what carriers hold of it and its parts."""
         bodies = {name_in_file(each): each.name for each in model.links}
         held = {bodies[body]: each for body, each in self._of_bodies.items() if body is not None and body in bodies}
-        fixed = {link: each.copy(child=link) for link, each in held.items()}
+        fixed = {
+            link: each.copy(parent=bodies.get(each.parent or "", each.parent), child=link)
+            for link, each in held.items()
+        }
+        model = without_stand_ins(model, fixed.values())
         self._used.update(map(id, held.values()))
         names = {name_in_file(each): each.name for each in model.joints}
         several = [each for each in self._joints if len(written := written_names(each)) > 1 and names.keys() & written]
@@ -77,6 +92,15 @@ class _PartMerging:
             joints=(*(self._merged_joint(each, fixed, chains) for each in model.joints), *holds),
             frames=tuple(map(self._merged, model.frames)),
         )
+
+    def in_document(self, document: Document) -> Document:
+        """The document whose world has what a carrier holds of it; it is called as the file is."""
+        if self._world is None or not document.worlds:
+            return document
+        world, *others = document.worlds
+        world = replace_fields(world, lights=without_lights(world.lights, self._parts))
+        world, partial = restored_settings(world, self._world.copy(name=world.name), self.root)
+        return document.copy(worlds=(self._merging.merge(world, partial), *others))
 
     def report_stale(self) -> None:
         """Report what belongs to nothing in the file."""
@@ -123,7 +147,7 @@ AnyNode = TypeVar("AnyNode", bound=Node)
 
 
 def _bare(partial: AnyNode) -> AnyNode:
-    return without_annotation(partial, WRITTEN, SEVERAL)
+    return without_annotation(partial, WRITTEN)
 
 
 def _called(partial: Joint, names: Mapping[str, str]) -> Joint:
@@ -134,7 +158,7 @@ def _called(partial: Joint, names: Mapping[str, str]) -> Joint:
 
 
 def _added_holds(model: Model, fixed: Iterable[Joint]) -> Iterable[Joint]:
-    """Yield the joints by which somebody has fixed links of a static model to the world, which need none in MJCF."""
+    """Yield the joints that somebody has given to links of a static model, which need none in MJCF."""
     held = {each.child for each in model.joints}
     loose = {each.name for each in model.links if each.name not in held} if model.static else set[str]()
     return (each for each in fixed if not is_rest(each) and each.child in loose)

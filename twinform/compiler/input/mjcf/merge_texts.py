@@ -22,6 +22,7 @@ from twinform.compiler.input.mjcf.restore_sensors import (
 )
 from twinform.compiler.input.mjcf.spellings import Spellings
 from twinform.compiler.input.mjcf.usual_remainders import without_assets, without_usual
+from twinform.compiler.input.mjcf.written_models import without_stand_ins
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document, Format, Frame, Joint, Link, Model, Node, Opaque, Pose, World, replace_fields
 from twinform.ir.element import Namespaces
@@ -150,6 +151,7 @@ class _Merged:
         )
         known = {each.name for each in between}
         self.links = [each for each in self.links if each.name not in whole or each.name not in known]
+        joints = without_stand_ins(model.copy(joints=joints), self.joints).joints
         links = self.merging.merge_all(between, tuple(without_annotation(each, WRITTEN) for each in self.links))
         ends = {WORLD, *(each.name for each in links), *(each.name for each in (*model.frames, *self.frames))}
         joints = self.merging.merge_all(joints, tuple(self._typed(joints, ends)))

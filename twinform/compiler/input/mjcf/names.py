@@ -12,6 +12,7 @@ from twinform.ir import Node, Opaque
 from twinform.ir.frames import WORLD
 from twinform.passes.carriers.annotations import MADE_NAME, annotation, with_annotation
 from twinform.passes.legalise.changed_names import old_name
+from twinform.passes.legalise.to_mjcf.writing_context import safe_name
 from twinform.passes.shared.nodes import reserve_name
 
 AnyNode = TypeVar("AnyNode", bound=Node)
@@ -58,12 +59,6 @@ class NameScope:
         if given == piece.name:
             return node
         return node.copy(opaque=(old_name(piece.name, given), *node.opaque))
-
-
-def safe_name(name: str) -> str:
-    """Return a name that SDF can hold: without `::`, and not one of those that it keeps for itself."""
-    safe = name.replace("::", "__").strip() or "unnamed"
-    return f"{safe.strip('_')}_" if safe.startswith("__") and safe.endswith("__") else safe
 
 
 def name_mark(name: str | None, given: str) -> tuple[Opaque, ...]:

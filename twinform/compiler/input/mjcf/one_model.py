@@ -64,34 +64,6 @@ def one_model(document: Document, name: str) -> Model:
     return rewrite(model, Node, as_before)
 
 
-def join_trees(document: Document, name: str) -> Document:
-    """A document of one model for the models of several trees, which were one model before it was written.
-
-    It is static if all of them are; otherwise fixed joints hold those that are.
-    """
-    models = document.models
-    taken = {node.name for each in models for node in (*each.links, *each.joints, *each.frames)}
-    is_static = all(each.static for each in models)
-    links: list[Link] = []
-    joints: list[Joint] = []
-    for each in models:
-        held = {joint.child for joint in each.joints if joint.parent != WORLD}
-        links += [_placed(link, each.pose) for link in each.links]
-        if each.static and not is_static:
-            joints += [_held(link, taken) for link in each.links if link.name not in held]
-        joints += each.joints
-    model = models[0].copy(
-        name=name,
-        pose=None,
-        static=True if is_static else None,
-        links=tuple(links),
-        joints=tuple(joints),
-        frames=tuple(frame for each in models for frame in each.frames),
-        opaque=tuple(part for each in models for part in without_annotation(each, NAME, MADE_NAME).opaque),
-    )
-    return document.copy(models=(model,))
-
-
 def _with_shapes_apart(link: Link) -> Link:
     """A link whose collisions are only seen where a visual says so: what is written has a geom for each."""
     if all(find_annotation(each, SAME_GEOM) is None for each in link.visuals):

@@ -11,6 +11,7 @@ from twinform.passes.carriers.mjcf_texts import PARTS, digest_of
 from twinform.passes.carriers.partial_nodes import REST
 from twinform.passes.legalise.changed_names import NAME
 from twinform.passes.legalise.to_mjcf.kept_mjcf import KEPT
+from twinform.passes.legalise.to_mjcf.options import SETTINGS
 from twinform.schemas import XmlElement
 
 AnyEmitter = TypeVar("AnyEmitter", Sensor, Light)
@@ -133,10 +134,6 @@ def _without(element: Element, names: frozenset[PartName]) -> Element:
     return element.copy(children=kept)
 
 
-_SETTINGS = frozenset({"magnetic_field", "physics", "wind"})
-"""The elements of a world that become attributes of `option`."""
-
-
 def restored_settings(world: World, partial: World, root: XmlElement) -> tuple[World, World]:
     """The settings of the source, if the options of the file are as written; otherwise those of the file."""
     note = find_annotation(partial, PARTS)
@@ -149,4 +146,4 @@ def restored_settings(world: World, partial: World, root: XmlElement) -> tuple[W
 
 
 def _without_settings(parts: tuple[Opaque, ...]) -> tuple[Opaque, ...]:
-    return tuple(part for part in parts if part.element is None or part.element.name not in _SETTINGS)
+    return tuple(part for part in parts if part.element is None or part.element.name not in SETTINGS)

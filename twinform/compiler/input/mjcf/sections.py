@@ -1,4 +1,4 @@
-"""The sections of a canonical MJCF file, and which tree of bodies an element outside of them is about."""
+"""The sections of a canonical MJCF file, and which model an element outside of the bodies is about."""
 
 from collections.abc import Iterable, Mapping, Sequence
 
@@ -41,26 +41,26 @@ class Sections:
 
 
 class Owners:
-    """Which tree each named part of a file is in, counted from 0."""
+    """Which model each named part of a file is in, counted from 0; a model is made of one tree of bodies or more."""
 
-    def __init__(self, trees: Sequence[Piece], sections: Sections) -> None:
-        self._trees: dict[tuple[str, str], int] = {}
+    def __init__(self, models: Sequence[Sequence[Piece]], sections: Sections) -> None:
+        self._models: dict[tuple[str, str], int] = {}
         self._sections = sections
         self._about: dict[str, dict[int | None, list[Piece]]] = {}
-        for number, tree in enumerate(trees):
-            for each in tree.walk():
+        for number, trees in enumerate(models):
+            for each in (part for tree in trees for part in tree.walk()):
                 if each.tag in _IN_TREES and each.name is not None:
                     kind = "joint" if each.tag == "freejoint" else each.tag
-                    self._trees.setdefault((kind, each.name), number)
+                    self._models.setdefault((kind, each.name), number)
         # tendons go over joints and sites, and actuators pull at tendons
         for kind in ("tendon", "actuator"):
             for each in sections.inside(kind):
                 owner = self.of(each)
                 if owner is not None and each.name is not None:
-                    self._trees.setdefault((kind, each.name), owner)
+                    self._models.setdefault((kind, each.name), owner)
 
     def about(self, number: int, tag: str) -> Sequence[Piece]:
-        """Return the elements of all sections of a name that are about one tree alone."""
+        """Return the elements of all sections of a name that are about one model alone."""
         if tag not in self._about:
             found = self._about[tag] = {}
             for each in self._sections.inside(tag):
@@ -68,12 +68,12 @@ class Owners:
         return self._about[tag].get(number, ())
 
     def of_part(self, kind: str, name: str) -> int | None:
-        """Return the tree that a named part is in."""
-        return self._trees.get((kind, name))
+        """Return the model that a named part is in."""
+        return self._models.get((kind, name))
 
     def of(self, piece: Piece) -> int | None:
-        """Return the one tree that all parts which an element names are in; None where there are none or several."""
-        found = {tree for each in piece.walk() for tree in self._named(each)}
+        """Return the one model that all parts which an element names are in; None where there are none or several."""
+        found = {model for each in piece.walk() for model in self._named(each)}
         return found.pop() if len(found) == 1 else None
 
     def _named(self, piece: Piece) -> Iterable[int]:
@@ -81,8 +81,8 @@ class Owners:
         for attribute in piece.attributes:
             kind, name = kinds.get(attribute), piece.peek(attribute)
             if kind in _OWNED and name is not None:
-                yield self._trees.get((kind, name), -1)
+                yield self._models.get((kind, name), -1)
         for attribute, type_ in _BY_TYPE.items():
             name, kind = piece.peek(attribute), piece.peek(type_)
             if name is not None and kind is not None:
-                yield self._trees.get((kind.removeprefix("x"), name), -1)
+                yield self._models.get((kind.removeprefix("x"), name), -1)

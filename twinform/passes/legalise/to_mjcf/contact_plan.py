@@ -123,15 +123,20 @@ class ContactPlan:
         is_told = len(links) > 1 and all(self._flagged[link] for link in links)
         return links if is_told and not self.touch_by_bits(links) else ()
 
-    @property
-    def is_told_apart(self) -> bool:
+    def is_told_apart(self, model: str) -> bool:
         """Whether links of a model touch by their bits, and only exclusions and the model keep them from it.
 
-        What is fixed to the world does not touch itself, whatever its bits are.
+        What is fixed to the world does not touch itself, whatever its bits are. A model in no world goes by no name.
         """
-        apart = [links for links in self._groups.values() if not any(self._flagged[link] for link in links)]
-        moving = (links for links in apart if any(self._weld(link) != WORLD for link in links))
-        return any(self.touch_by_bits(links) for links in moving)
+        links = self._groups.get(model, ())
+        if any(self._flagged[link] for link in links) or all(self._weld(link) == WORLD for link in links):
+            return False
+        return self.touch_by_bits(links)
+
+    def could_touch_itself(self, model: str) -> bool:
+        """Whether two links of a model or more have geoms that touch anything, so that their bits tell if they do."""
+        touching = (link for link in self._groups.get(model, ()) if self._bits_of(link) - {_NONE})
+        return len([*touching][:2]) > 1
 
     @cached_property
     def excluded(self) -> tuple[Pair, ...]:

@@ -2,10 +2,11 @@
 
 import math
 
-from twinform.ir import Element, Light, World
+from twinform.ir import Color, Element, Light, World
 from twinform.ir.frames import WORLD
 from twinform.ir.node import Vector3
 from twinform.ir.transform import Transform, rounded
+from twinform.passes.carriers.carriers import is_ours
 from twinform.passes.legalise.changed_names import source_name
 from twinform.passes.legalise.to_mjcf.elements import Attributes, Value, make_element, position
 from twinform.passes.legalise.to_mjcf.kept_mjcf import with_kept
@@ -13,11 +14,13 @@ from twinform.passes.legalise.to_mjcf.said_parts import (
     child_number,
     child_text,
     untyped,
+    without_elements,
 )
 from twinform.passes.legalise.to_mjcf.writing_context import Body, MjcfContext
 
 _TYPES = frozenset({"point", "directional", "spot"})
 _DOWN: Vector3 = (0.0, 0.0, -1.0)
+_OPAQUE: Color = (1.0, 1.0, 1.0, 1.0)
 _WHITE, _FAINT = (1.0, 1.0, 1.0), (0.1, 0.1, 0.1)
 """The colors of a light of SDF that has none written."""
 _FADING = (("constant", 1.0), ("linear", 1.0), ("quadratic", 0.0))
@@ -62,6 +65,29 @@ def light_attributes(light: Light, place: Transform) -> Attributes:
     if spot is not None:
         found += [("cutoff", _cutoff(spot)), ("exponent", _exponent(spot))]
     return found
+
+
+def unread_light(light: Light) -> Light | None:
+    """A light that is not read again of the element which stands for it; None for one that is."""
+    is_turned = light.pose is not None and not Transform.from_pose(light.pose).is_unturned
+    colors = (light.diffuse or _OPAQUE, light.specular or _OPAQUE)
+    is_bright = any(each[3:] != _OPAQUE[3:] or not all(0 <= part <= 1 for part in each) for each in colors)
+    if light.type not in _TYPES or is_turned or is_bright:
+        return light
+    is_cone = light.type == "spot" and _is_sharp(untyped(light, "spot"))
+    left = without_elements(light, {"light_on", "spot"} if is_cone else {"light_on"})
+    if any(not is_ours(part) for part in left.opaque):
+        return light
+    fields = dict.fromkeys(("type", "pose", "cast_shadows", "diffuse", "specular", "direction"))
+    return None if left.copy(**fields, opaque=()) == Light.unchecked(name=light.name) else light
+
+
+def _is_sharp(spot: Element | None) -> bool:
+    """Whether a cone of light has no softer edge, as those that are read."""
+    if spot is None:
+        return False
+    inner, outer, fall = (child_number(spot, name, default=0.0) for name in ("inner_angle", "outer_angle", "falloff"))
+    return inner == outer and outer > 0 and not fall
 
 
 def _kind(light: Light) -> str:

@@ -12,6 +12,12 @@ MAGNETIC_FIELD = (5.5645e-6, 2.28758e-5, -4.23884e-5)
 """The field of a world of SDF that names none; T."""
 
 
+SETTINGS = frozenset({"magnetic_field", "physics", "wind"})
+"""The elements of a world that become attributes of `option`."""
+_OF_MUJOCO = (("type", "ignored"),)
+"""The attributes of the `<physics>` of a world that was read of MJCF."""
+
+
 def add_options(context: MjcfContext) -> None:
     """Add what a world says of its physics to the sections `option`, `visual` and `statistic`."""
     holder = context.holder
@@ -19,6 +25,15 @@ def add_options(context: MjcfContext) -> None:
         measured = any(isinstance(node, Sensor) and node.type == "magnetometer" for node in walk(holder))
         context.add("option", make_element("option", option_attributes(holder, has_magnetometers=measured)))
         context.leave(holder, unsaid_world(holder))
+
+
+def has_usual_settings(context: MjcfContext) -> bool:
+    """Whether the options of the file say all settings of the world, and are read as these again."""
+    found = context.left.get(id(context.holder))
+    if found is None or untyped(found[0], "magnetic_field") is None:  # for which MuJoCo has another default
+        return False
+    kept = (part.element for part in found[1].opaque if part.element is not None and part.element.name in SETTINGS)
+    return all(each.attributes == _OF_MUJOCO and not each.children for each in kept)
 
 
 def option_attributes(world: World, *, has_magnetometers: bool) -> Attributes:

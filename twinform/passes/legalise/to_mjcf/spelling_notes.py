@@ -65,7 +65,7 @@ class SpellingNotes:
             Visual: self._on_visual,
             Collision: self.on_shape,
             Inertial: _on_inertial,
-            World: self._on_world,
+            World: self.on_world,
             Light: self.parts,
             Sensor: lambda sensor: () if said.left_of(sensor) is None else self.parts(sensor),
             Joint: self._on_joint,
@@ -100,7 +100,8 @@ class SpellingNotes:
             if uri != NAMESPACE:
                 yield annotation(PREFIXES, attributes={"prefix": prefix, "uri": uri})
 
-    def _on_world(self, _world: World) -> Iterable[Opaque]:
+    def on_world(self, _world: World) -> Iterable[Opaque]:
+        """The digest of the options of the file, which say the settings of the world."""
         yield annotation(PARTS, attributes={"digest": digest_of(tagged(self.context.sections.get("option", ())))})
 
     def _offset(self, _model: Model) -> Iterable[Opaque]:

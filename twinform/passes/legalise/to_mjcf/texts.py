@@ -23,6 +23,7 @@ from twinform.ir import (
     Sensor,
     Visual,
     World,
+    map_references,
     rewrite,
     walk,
 )
@@ -33,14 +34,12 @@ from twinform.passes.carriers.annotations import (
     annotation,
     find_annotation,
     is_synthesized,
-    with_annotation,
 )
 from twinform.passes.carriers.carriers import NAMESPACE, bits_of_ours, is_carrier, is_ours, without_parts
 from twinform.passes.carriers.joint_chains import CHAINS
 from twinform.passes.carriers.mjcf_texts import (
     DOCUMENT,
     LOOP,
-    SEVERAL,
     SHAPE_OF,
     bare_xml,
     text_element,
@@ -50,10 +49,14 @@ from twinform.passes.carriers.mjcf_texts import (
 from twinform.passes.carriers.partial_nodes import REST, WRITTEN, Left, is_bare, remainder
 from twinform.passes.legalise.changed_names import fixed_joint_name
 from twinform.passes.legalise.to_mjcf.contact_plan import MASKS
+from twinform.passes.legalise.to_mjcf.file_models import FileModels
 from twinform.passes.legalise.to_mjcf.friction import without_friction
 from twinform.passes.legalise.to_mjcf.inertials import weight_of
 from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements
+from twinform.passes.legalise.to_mjcf.lights import unread_light
 from twinform.passes.legalise.to_mjcf.looks import is_seen
+from twinform.passes.legalise.to_mjcf.model_texts import holder_partials, is_of_mjcf
+from twinform.passes.legalise.to_mjcf.options import SETTINGS, has_usual_settings
 from twinform.passes.legalise.to_mjcf.said_parts import without_elements
 from twinform.passes.legalise.to_mjcf.spelling_notes import SpellingNotes
 from twinform.passes.legalise.to_mjcf.what_is_said import WhatIsSaid
@@ -67,7 +70,6 @@ _MARK = f"{_OURS}{REST}"
 _GROUPS = frozenset({"axis", "axis2", "limit", "dynamics", "surface"})
 """Elements that only group others: what is in them counts, and not they themselves."""
 _MASKS = frozenset(f"contact/{each}" for each in MASKS)
-_MOVING = frozenset({"joint", "freejoint"})
 _OF_CONSTRAINTS = frozenset({"ball", "fixed"})
 """The types of joints that constraints are read as."""
 _ALWAYS_THE_FIRST = frozenset(each for each in versions_of("sdf") if parse_version(each) < (1, 7))
@@ -119,39 +121,63 @@ class _Texts:
         ]
         joints = [each.copy(child=None) if each.child in hidden else each for each in model.joints]
         joints = [_as_mjcf_has_it(each) for each in joints if not self._is_constraint(each)]
-        is_told_apart = isinstance(self.context.holder, Model) and self.context.contacts.is_told_apart
-        model = model.copy(self_collide=False if is_told_apart else None, static=self._static_beside(model))
-        for kind, parts in (("model", (model,)), ("link", links), ("joint", joints)):
-            for each in parts:
+        models = FileModels(self.context)
+        for part in holder_partials(self.context, self.file, models):
+            self._add_text(*part)
+        if isinstance(self.context.holder, World):
+            self._add_world(self.context.holder, models)
+        for kind, parts in (("link", links), ("joint", joints)):
+            for each in filter(lambda part: models.has_part(part.name), parts):
                 self.file.part = each
-                left = remainder(without_parts(each, _is_of_mjcf), self._said_beside, self._notes_beside)
+                left = remainder(_without_what_file_has(each), self._said_beside, self._notes_beside)
                 if left is not None and self._is_needless(left, each):
                     left = None
-                if isinstance(left, Joint):
-                    left = left.copy(parent=self._body_of(left.parent), child=self._body_of(left.child))
-                if each is model and self._is_model_of_several_trees:
-                    left = with_annotation(left or Model.unchecked(name=model.name), SEVERAL)
                 if left is not None:
+                    left = map_references(left, self._name_in_file)
                     names = [other for other in self.file.other_names(each) if other != WORLD]
                     name = names[0] if len(names) == 1 else each.name
                     # Of these joints the file has no name, or several.
-                    own = _own_name(each) if _is_fixed(each) or len(names) > 1 else name
+                    is_named = not isinstance(each, Joint) or self.context.written_joints.get(each.name)
+                    own = name if is_named and len(names) <= 1 else _own_name(each.name)
                     self._add_text(kind, name, left.copy(name=own), each)
 
-    @property
-    def _is_model_of_several_trees(self) -> bool:
-        """Whether bodies at the top, of which a file of MJCF makes a model each, are links of one model."""
-        trees = [each for each in self.context.sections.get("worldbody", ()) if each.name == "body"]
-        return isinstance(self.context.holder, Model) and len(trees) > 1
+    def _add_world(self, world: World, models: FileModels) -> None:
+        """Add a text for what stands in a world itself, such as plugins, and for one that is read as a model."""
+        told = without_parts(world.copy(models=(), joints=(), frames=(), gravity=None), is_of_mjcf)
+        lights = tuple(left for each in world.lights if (left := unread_light(each)) is not None)
+        told, notes = told.copy(lights=lights), ()
+        if has_usual_settings(self.context):
+            told = without_elements(told, SETTINGS)
+        else:
+            told, notes = told.copy(gravity=world.gravity), tuple(self.spelling.on_world(world))
+        left = remainder(told, self._said_beside, self._notes_beside)
+        if left is None and not notes and models.is_world:
+            return
+        left = left or World.unchecked(name=world.name)
+        self._add_text("world", "", left.copy(opaque=(*notes, *left.opaque)), world)
 
     def _is_named_by_file(self, joint: Joint) -> bool:
         """Whether a fixed joint, which has no name in MJCF, is called as it is when the file is read."""
         body = self._body_of(joint.child)
         # Where several would be called so, a number stands behind it. The link may have another name by now.
         made = find_annotation(joint, MADE_NAME)
-        is_made = made is not None and made.text == _own_name(joint)
+        is_made = made is not None and made.text == _own_name(joint.name)
         is_made = is_made and joint.name.startswith(fixed_joint_name(joint.child or ""))
-        return is_made or is_synthesized(joint) or _own_name(joint) == fixed_joint_name(body or "")
+        return is_made or is_synthesized(joint) or _own_name(joint.name) == fixed_joint_name(body or "")
+
+    def _name_in_file(self, kind: str, name: str) -> str:
+        """The name that a part goes by in the file, where no scope stands before it."""
+        context = self.context
+        if name in {WORLD, MODEL}:
+            return name
+        if kind != "joint" and (body := context.written_bodies.get(name)):
+            return _own_name(name) if body == WORLD else body
+        if joints := context.written_joints.get(name):
+            return joints[-1]
+        if site := context.written_sites.get(name):
+            return site
+        is_model = isinstance(context.holder, World) and any(each.name == name for each in context.holder.models)
+        return MODEL if is_model else _own_name(name)
 
     def _body_of(self, link: str | None) -> str | None:
         """The name of the body of a link, by which a joint without a name of its own is known."""
@@ -177,13 +203,6 @@ class _Texts:
         ):
             return left.copy(parent=None, child=None, pose=None)
         return left
-
-    def _static_beside(self, model: Model) -> bool | None:
-        """Whether a model is static; None where that is what the bodies of the file say."""
-        bodies = (part for body in self.context.sections.get("worldbody", ()) for part in body.walk())
-        is_still = all(each.name not in _MOVING for each in bodies)
-        is_static = bool(model.static)
-        return None if is_still == is_static or not isinstance(self.context.holder, Model) else is_static
 
     def _without_seen(self, link: Link) -> Link:
         """A link whose visuals have no material that the file shows as it is."""
@@ -219,7 +238,7 @@ class _Texts:
             return (*written, *notes)
         if isinstance(node, Joint) and (node.name in self.file.closing or node.type in CHAINS):
             return tuple(self._notes_of_several(node))
-        if isinstance(node, Sensor) and self.what.left_of(node) is not None:
+        if isinstance(node, Light) or (isinstance(node, Sensor) and self.what.left_of(node) is not None):
             parts = self.file.parts_of(node)
             self.context.unnamed.difference_update((each.name, each.get("name") or "") for each in parts)
             return tuple(self.spelling.parts(node))
@@ -303,13 +322,15 @@ def _tells_of_uris(left: Node) -> bool:
     return any(find_annotation(each, SHAPE_OF) is not None for each in walk(left))
 
 
-def _is_fixed(node: Node) -> bool:
-    return isinstance(node, Joint) and node.type == "fixed"
-
-
-def _own_name(node: Joint | Link | Model) -> str:
+def _own_name(name: str) -> str:
     """The name of a part in its model."""
-    return node.name.rpartition(SCOPE)[2]
+    return name.rpartition(SCOPE)[2]
+
+
+def _without_what_file_has(part: Link | Joint) -> Link | Joint:
+    """A part without what only MJCF says of it; a light comes back as a whole, and keeps that."""
+    bare = without_parts(part, is_of_mjcf)
+    return bare.copy(lights=part.lights) if isinstance(part, Link) and part.lights else bare
 
 
 def _as_mjcf_has_link(link: Link, *, has_masks: bool) -> Link:
@@ -317,7 +338,7 @@ def _as_mjcf_has_link(link: Link, *, has_masks: bool) -> Link:
     return link.copy(
         collisions=tuple(_as_mjcf_has_collision(each, has_masks=has_masks) for each in link.collisions),
         sensors=_unread_sensors(link.sensors),
-        lights=(),
+        lights=tuple(left for each in link.lights if (left := unread_light(each)) is not None),
         inertial=None if weight_of(link).is_nothing else link.inertial,
         kinematic=None if _is_mocap(link) else link.kinematic,
         gravity=None if link.gravity is False else link.gravity,
@@ -347,7 +368,7 @@ def _unread_sensors(sensors: Iterable[Sensor]) -> tuple[Sensor, ...]:
 def _unread(sensor: Sensor) -> Sensor | None:
     """What a file of MJCF leaves unsaid of a sensor, without a type where readings stand for it; None for nothing."""
     has_readings = any(each.name == "sensor" for each in kept_elements(sensor))
-    opaque = tuple(part for part in sensor.opaque if not (_is_of_mjcf(part) or _is_read(part.element, has_readings)))
+    opaque = tuple(part for part in sensor.opaque if not (is_of_mjcf(part) or _is_read(part.element, has_readings)))
     bare = sensor.copy(type=None, pose=None, opaque=opaque)
     if (has_readings or sensor.type == "camera") and bare == Sensor.unchecked(name=sensor.name):
         return None
@@ -370,11 +391,6 @@ _OF_CAMERAS = frozenset({"camera", "horizontal_fov", "image", "width", "height"}
 def _is_mocap(link: Link) -> bool:
     """Whether a link keeps that only a program moves it."""
     return any(each.name == "body" and each.get("mocap") == "true" for each in kept_elements(link))
-
-
-def _is_of_mjcf(part: Opaque) -> bool:
-    """Whether an untyped part says how a file of MJCF is read; what URDF has in a carrier does not."""
-    return is_ours(part) and not is_carrier(part, "urdf")
 
 
 def _is_rest(xml: XmlElement) -> bool:

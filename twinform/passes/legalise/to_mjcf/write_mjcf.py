@@ -5,8 +5,7 @@ from typing import ClassVar
 
 from twinform.diagnostics import DiagnosticSink, Fate
 from twinform.ir import Document, Element, Format, Model, Opaque, World
-from twinform.ir.frames import WORLD, FrameError
-from twinform.passes.carriers.annotations import WORLDBODY
+from twinform.ir.frames import FrameError
 from twinform.passes.carriers.carriers import Keeper
 from twinform.passes.framework.pass_base import AssetPass
 from twinform.passes.legalise.to_mjcf.actuator_efforts import settle_efforts
@@ -14,6 +13,7 @@ from twinform.passes.legalise.to_mjcf.bodies import body_elements
 from twinform.passes.legalise.to_mjcf.contacts import add_contacts
 from twinform.passes.legalise.to_mjcf.elements import make_element
 from twinform.passes.legalise.to_mjcf.equalities import add_equalities
+from twinform.passes.legalise.to_mjcf.file_models import is_named_by_file
 from twinform.passes.legalise.to_mjcf.kept_mjcf import NO_SECTION, SECTIONS, SINGLE
 from twinform.passes.legalise.to_mjcf.kept_sections import add_kept_sections
 from twinform.passes.legalise.to_mjcf.lights import world_lights
@@ -22,7 +22,7 @@ from twinform.passes.legalise.to_mjcf.mimics import add_gearboxes, add_mimics
 from twinform.passes.legalise.to_mjcf.options import add_options
 from twinform.passes.legalise.to_mjcf.sites import world_sites
 from twinform.passes.legalise.to_mjcf.texts import add_texts
-from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext, is_made_name
+from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext
 from twinform.passes.shared.replaced_shapes import FOLDER, ShapeReplacer
 
 _COMPILER = make_element(
@@ -77,7 +77,7 @@ class WriteMjcf(AssetPass):
         except FrameError as error:
             error.report(sink)
             return document
-        parts = [] if _is_named_by_file(context) else [Opaque.unchecked(attribute=("model", holder.name))]
+        parts = [] if is_named_by_file(context) else [Opaque.unchecked(attribute=("model", holder.name))]
         parts += [Opaque.unchecked(element=each) for each in _in_order(context)]
         return Document.unchecked(format=Format.MJCF, opaque=tuple(parts), source=document.source)
 
@@ -95,16 +95,6 @@ def holder_of(document: Document) -> Model | World:
     if len(document.models) == 1:
         return document.models[0]
     return World.unchecked(name="world", models=document.models, lights=document.lights, source=document.source)
-
-
-def _is_named_by_file(context: MjcfContext) -> bool:
-    """Whether the name of what is written was made when it was read, and is made again.
-
-    The static model of the world's own shapes is called so only while these belong to no body.
-    """
-    holder = context.holder
-    is_scenery = isinstance(holder, Model) and holder.name == WORLDBODY
-    return is_made_name(holder) and (not is_scenery or WORLD in context.written_bodies.values())
 
 
 def _write_sections(context: MjcfContext) -> None:

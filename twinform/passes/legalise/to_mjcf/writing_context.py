@@ -15,6 +15,7 @@ from twinform.diagnostics import DiagnosticSink, Fate, Location, Rule, rules
 from twinform.ir import (
     Document,
     Element,
+    Format,
     Frame,
     Link,
     Model,
@@ -28,7 +29,7 @@ from twinform.ir.kinematic_tree import JointBetween, KinematicTree
 from twinform.ir.record import Sourced
 from twinform.ir.scopes import SCOPE, scoped_models
 from twinform.ir.transform import Transform
-from twinform.passes.carriers.annotations import MADE_NAME, find_annotation
+from twinform.passes.carriers.annotations import MADE_NAME, came_from, find_annotation
 from twinform.passes.carriers.carriers import Keeper
 from twinform.passes.framework.assets import NO_ASSETS, Assets
 from twinform.passes.legalise.to_mjcf.contact_plan import ContactPlan
@@ -134,13 +135,15 @@ class MjcfContext:
     def static_links(self) -> frozenset[str]:
         """The scoped names of the links of static models, and of those nested in them.
 
-        Of MJCF a model is static because nothing in it moves: a joint that was added since counts.
+        A URDF of MJCF has a static model because nothing in it moves: a joint that was added since counts. In SDF
+        nothing of a static model moves, whatever its joints are.
         """
         static = tuple(scope for scope, each in self.models if each.static)
         if not static:
             return frozenset()
         found = (name for name in self.tree.links if name.startswith(static))
-        return frozenset(name for name in found if not (self.is_of_mjcf and self._is_moved(name)))
+        is_urdf = isinstance(self.holder, Model) and came_from(self.holder, Format.URDF)
+        return frozenset(name for name in found if not (is_urdf and self.is_of_mjcf and self._is_moved(name)))
 
     def _is_moved(self, link: str) -> bool:
         """Whether a joint that moves is anywhere between a link and the root of its tree."""
@@ -345,6 +348,12 @@ def is_made_name(node: Node, wish: str = "") -> bool:
     """
     found, name = find_annotation(node, MADE_NAME), getattr(node, "name", None)
     return found is not None and name is not None and found.text == name and name.startswith(wish)
+
+
+def safe_name(name: str) -> str:
+    """Return a name that SDF can hold: without `::`, and not one of those that it keeps for itself."""
+    safe = name.replace("::", "__").strip() or "unnamed"
+    return f"{safe.strip('_')}_" if safe.startswith("__") and safe.endswith("__") else safe
 
 
 def scope_of(name: str) -> str:

@@ -10,6 +10,7 @@ from lxml import etree
 import twinform
 from twinform.compiler.input.load_options import FileOptions, LoadOptions
 from twinform.compiler.input.mjcf.lower import FileLowering
+from twinform.compiler.input.mjcf.model_trees import WrittenModels
 from twinform.compiler.input.mjcf.normalize import normalize
 from twinform.compiler.input.mjcf.pieces import Piece
 from twinform.diagnostics import DiagnosticSink, Fate
@@ -189,7 +190,7 @@ def test_each_attribute_is_expressed_or_kept(case: Path) -> None:
     canonical = normalize(root, context, LoadOptions.of(FileOptions()))
     assert canonical is not None
     piece = Piece(canonical, str(case))
-    FileLowering(piece, context, LoadOptions.of(FileOptions()), root).document()
+    FileLowering(piece, context, LoadOptions.of(FileOptions()), root, WrittenModels()).document()
     forgotten = [(each.tag, name) for each in piece.walk() for name in each.forgotten]
     assert forgotten == []
     assert [each.tag for each in piece.walk() if not each.is_settled] == []
