@@ -7,7 +7,7 @@ a typed field; `TextOutput.unusual` adds what has none, and notes where a node s
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import field
-from functools import cache
+from functools import lru_cache
 from itertools import count
 from typing import Any
 
@@ -30,6 +30,18 @@ WrittenParts = list[tuple[Any, int]]
 
 NEW_LINE = "\n"
 """The indent of the root."""
+
+
+class _NoIndent(str):
+    """The indent of a text without layout, in which that of what is inside is none either."""
+
+    __slots__ = ()
+
+    def __add__(self, value: str, /) -> str:
+        return self
+
+
+NO_LAYOUT = _NoIndent()
 _STEP = "  "
 _ZERO = (0.0, 0.0, 0.0)
 _PLAIN_NAME = lazy_pattern(r"[A-Za-z_][A-Za-z0-9_.-]*")
@@ -42,6 +54,7 @@ _INCOMPATIBLE = "All strings must be XML compatible: Unicode or ASCII, no NULL b
 _REFERENCES = {"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;", "\n": "&#10;", "\t": "&#9;", "\r": "&#13;"}
 # XML declares this prefix itself.
 _KNOWN = {"": "", "http://www.w3.org/XML/1998/namespace": "xml:"}
+_MOST_NAMES = 4096
 # Stands around the number of a part, behind the name of its element: no text of XML can hold it.
 _MARK = "\0"
 
@@ -126,7 +139,9 @@ class _PrefixNames(dict[str, str]):
         local = name.rpartition("}")[2]
         if not _PLAIN_NAME.fullmatch(local):
             etree.QName(name)  # ValueError for what is no name
-        written = self[name] = self.prefixes[namespace_of(name)] + local
+        written = self.prefixes[namespace_of(name)] + local
+        if len(self) < _MOST_NAMES:  # they outlive the file
+            self[name] = written
         return written
 
 
@@ -177,11 +192,8 @@ class TextOutput:
         self.version = version
         self.arrange = arrange
         self.parts = parts
-        self.declarations = _declarations(tuple(namespaces.items())) if namespaces else ""
+        self.declarations, self._names = _declared_names(tuple(namespaces.items()))
         self._taken = namespaces
-        # Of two prefixes of a namespace lxml takes the first.
-        prefixes = {uri: f"{prefix}:" for prefix, uri in reversed(namespaces.items())} if namespaces else {}
-        self._names = _PrefixNames(_KNOWN | prefixes)
         self._made_up = count()
         self._late: dict[int, list[Item]] = {}
 
@@ -267,13 +279,12 @@ class TextOutput:
         """Return the body of an element with additions made in its child of this name, which is created if missing."""
         names, declared = self._declared([step], self._names)
         name = names[step]
-        found = re.search(rf"{indent}<{re.escape(name)}(?=[ />{_MARK}])", body)
-        span = (found.start(), end_of_element(body, found.end() - len(name) - 1)) if found else (len(body),) * 2
+        span = _span_of_child(body, name, indent)
         head, _, rest = (body[slice(*span)] or f"{indent}<{name}{declared}/>").partition(">")
         attributes = head.removesuffix("/")[len(indent) + 1 + len(name) :]
         inside = "" if head[-1] == "/" else rest.rpartition("</")[0].removesuffix(indent)
         child = _joined(name, indent, *self._added(attributes, inside, indent + _STEP, additions))
-        if found is not None:
+        if span[0] < len(body):
             return body[: span[0]] + child + body[span[1] :]
         return body + _behind(body, child, indent)
 
@@ -330,11 +341,13 @@ class TextOutput:
         return _PrefixNames({**names.prefixes, **{uri: f"{prefix}:" for uri, prefix in made.items()}}), declared
 
 
-@cache
-def _declarations(namespaces: tuple[tuple[str | None, str], ...]) -> str:
-    """Return the declarations of namespaces, in the form that lxml accepts."""
+@lru_cache(maxsize=16)  # a file has a thousand carriers, each of which is an output of its own
+def _declared_names(namespaces: tuple[tuple[str | None, str], ...]) -> tuple[str, _PrefixNames]:
+    """Return the declarations of namespaces, in the form that lxml accepts, and the names with their prefixes."""
     holder = etree.tostring(etree.Element("holder", nsmap=dict(namespaces)), encoding="unicode")
-    return holder.removeprefix("<holder").removesuffix("/>")
+    # Of two prefixes of a namespace lxml takes the first.
+    prefixes = {uri: f"{prefix}:" for prefix, uri in reversed(namespaces)}
+    return holder.removeprefix("<holder").removesuffix("/>"), _PrefixNames(_KNOWN | prefixes)
 
 
 def _attributes(attributes: Iterable[tuple[str, str]], names: _PrefixNames) -> str:
@@ -371,6 +384,21 @@ def _joined(tag: str, indent: str, attributes: str, body: str) -> str:
     if not body:
         return f"{indent}<{tag}{attributes}/>"
     return f"{indent}<{tag}{attributes}>{body}{indent if body[-1] == '>' else ''}</{tag}>"
+
+
+def _span_of_child(body: str, name: str, indent: str) -> tuple[int, int]:
+    """Return where the first child of a name begins, with its indent, and ends; the end of the body if there is none.
+
+    One that stands behind text is not meant.
+    """
+    start = body.find("<")
+    while start >= 0:
+        end, first = end_of_element(body, start), start - len(indent)
+        is_behind_text = first > 0 and body[first - 1] != ">"
+        if not is_behind_text and re.compile(rf"<{re.escape(name)}[ />{_MARK}]").match(body, start):
+            return first, end
+        start = body.find("<", end)
+    return len(body), len(body)
 
 
 def end_of_element(text: str, start: int) -> int:

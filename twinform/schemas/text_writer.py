@@ -8,7 +8,7 @@ from lxml import etree
 
 from twinform.ir.versions import Version
 from twinform.schemas.facts import table
-from twinform.schemas.text_output import NEW_LINE, Arrange, TextOutput, WrittenParts, without_marks
+from twinform.schemas.text_output import NEW_LINE, NO_LAYOUT, Arrange, TextOutput, WrittenParts, without_marks
 from twinform.schemas.xml import XmlElement
 
 _PARSER = etree.XMLParser(resolve_entities=False, no_network=True, huge_tree=True, collect_ids=False)
@@ -39,7 +39,7 @@ def root_text(
 
 
 def node_xml(format: str, node: Any, definition: str, namespaces: dict[str | None, str] | None = None) -> XmlElement:
-    """The XML of a node by the definition of its element, as the newest version of a format has it.
+    """The XML of a node by the definition of its element, as the newest version of a format has it, without layout.
 
     The namespaces are declared if they are in it.
 
@@ -47,7 +47,7 @@ def node_xml(format: str, node: Any, definition: str, namespaces: dict[str | Non
         ValueError: there is a name or a text that XML cannot hold.
     """
     out = TextOutput(_newest(format), namespaces or {})
-    text: str = _module(format).WRITERS[definition](node, out, NEW_LINE).lstrip() or f"<{definition}/>"
+    text: str = _module(format).WRITERS[definition](node, out, NO_LAYOUT) or f"<{definition}/>"
     if (
         any(f"<{prefix}:" in text or f" {prefix}:" in text for prefix in namespaces or ())
         and out.declarations not in text

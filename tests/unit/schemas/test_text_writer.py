@@ -1,6 +1,7 @@
 """The generated writers of text, and what makes them."""
 
 from dataclasses import replace
+from textwrap import dedent
 
 import pytest
 from lxml import etree
@@ -114,8 +115,18 @@ def test_a_truth_value_is_spelt_as_it_was_where_it_is_the_same(spelt: str, writt
     ],
 )
 def test_untyped_parts_stand_where_they_stood(parts: list[Opaque], written: str | None) -> None:
-    text = etree.tostring(node_xml("sdf", Inertial(mass=1, opaque=tuple(parts)), "inertial"), encoding="unicode")
-    assert text == (f"<inertial>\n  {written}\n</inertial>" if written else "<inertial>2<mass>1</mass>\n</inertial>")
+    link = Link(name="a", inertial=Inertial(mass=1, opaque=tuple(parts)))
+    text = _written(Model(name="m", links=(link,))).partition('<link name="a">\n')[2].partition("\n    </link>")[0]
+    found = dedent(text)
+    assert found == (f"<inertial>\n  {written}\n</inertial>" if written else "<inertial>2<mass>1</mass>\n</inertial>")
+
+
+def test_a_node_alone_is_written_without_layout() -> None:
+    inside = Opaque(element=Element(name="a", children=(Element(name="b"),)))
+    parts = (inside, Opaque(at="b", attribute=("c", "d")), Opaque(at="mass", element=Element(name="e")))
+    xml = node_xml("sdf", Inertial(mass=1, opaque=parts), "inertial")
+    written = '<inertial><mass>1<e/></mass><a><b/></a><b c="d"/></inertial>'
+    assert etree.tostring(xml, encoding="unicode") == written
 
 
 def test_an_element_that_is_empty_is_there_where_it_is_asked_for() -> None:

@@ -87,16 +87,14 @@ def text_element(name: str, data: str) -> Element:
     return Element.unchecked(name="text", attributes=(("name", name), ("data", data)))
 
 
-def bare_xml(node: Node, kind: str) -> XmlElement:
-    """The element of a partial node, without the white space of a layout."""
-    xml = node_xml("sdf", node, "sdf" if kind == DOCUMENT else kind, {TF: NAMESPACE})
-    _strip_layout(xml)
-    return xml
+def node_element(node: Node, kind: str) -> XmlElement:
+    """The element of a partial node."""
+    return node_xml("sdf", node, "sdf" if kind == DOCUMENT else kind, {TF: NAMESPACE})
 
 
 def node_data(node: Node, kind: str) -> str:
     """The data of the carrier of a partial node."""
-    return xml_data(bare_xml(node, kind))
+    return xml_data(node_element(node, kind))
 
 
 def xml_data(xml: XmlElement) -> str:
@@ -169,12 +167,3 @@ def _rounded(value: str) -> str:
         return " ".join(f"{float(word):.5g}" for word in value.split())
     except ValueError:
         return value
-
-
-def _strip_layout(xml: XmlElement) -> None:
-    """Remove the white space that only lays out the tree."""
-    for element in xml.iter():
-        if element.tail and not element.tail.strip():
-            element.tail = None
-        if len(element) and element.text and not element.text.strip():
-            element.text = None

@@ -9,7 +9,7 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import field
 from functools import cache
-from operator import is_
+from operator import attrgetter, is_
 from typing import NamedTuple, Protocol, TypeVar, cast
 
 from twinform.dataclass import dataclass
@@ -65,10 +65,12 @@ def remainder(node: AnyNode, said: Said, notes: Notes = _no_notes) -> AnyNode | 
     if isinstance(fields, Left):
         base, fields = cast("AnyNode", fields.node), fields.fields
     more = notes(node)
+    parts = _parts_of(base.__class__, fields)
+    if not more and parts.values(base) == parts.blank:  # most nodes are said as a whole
+        return None
     update: dict[str, object] = {}
     is_said, has_content = base is not node or EXISTENCE in fields, bool(more or base.opaque)
-    unsaid, known = _parts_of(base.__class__, fields)
-    for name, usual in unsaid:
+    for name, usual in parts.unsaid:
         value = getattr(base, name)
         if not value and (value is None or value == ()):  # as most are; to compare records takes longer
             continue
@@ -79,9 +81,9 @@ def remainder(node: AnyNode, said: Said, notes: Notes = _no_notes) -> AnyNode | 
         is_said = True
         update[name] = usual if left is None else left
         has_content = has_content or left is not None
-    if not has_content:  # most nodes are said as a whole, and need no copy
+    if not has_content:
         return None
-    for name, usual in known:
+    for name, usual in parts.said:
         if not _is_unwritten(getattr(base, name)):
             update[name] = usual
             is_said = True
@@ -243,8 +245,26 @@ def _is_unwritten(value: object) -> bool:
     return not value and (value is None or value == ())  # to compare records takes longer
 
 
+class _Parts(NamedTuple):
+    """The fields of a class that are left unsaid, and those that are said, with their defaults.
+
+    `values` returns those of the unsaid ones and the untyped parts, and they are `blank` if nothing is left unsaid.
+    """
+
+    unsaid: tuple[_Usual, ...]
+    said: tuple[_Usual, ...]
+    values: Callable[[Node], object]
+    blank: tuple[object, ...]
+
+
 @cache
-def _parts_of(kind: type[Node], said: frozenset[str]) -> tuple[tuple[_Usual, ...], tuple[_Usual, ...]]:
-    """The fields of a class that are left unsaid, and those that are said, with their defaults."""
+def _parts_of(kind: type[Node], said: frozenset[str]) -> _Parts:
     parts = [(name, each.default) for name, each in fields_of(kind).items() if name not in _APART]
-    return tuple(each for each in parts if each[0] not in said), tuple(each for each in parts if each[0] in said)
+    unsaid = tuple(each for each in parts if each[0] not in said)
+    values = attrgetter(*(name for name, _ in unsaid), "opaque", "__class__")  # of one name it would return no tuple
+    blank = (*(usual if _is_unwritten(usual) else _NOTHING for _, usual in unsaid), (), kind)
+    return _Parts(unsaid, tuple(each for each in parts if each[0] in said), values, blank)
+
+
+_NOTHING = object()
+"""Is equal to no value: what is not the absence of a field has to be looked at."""

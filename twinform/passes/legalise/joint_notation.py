@@ -5,7 +5,7 @@ from typing import ClassVar
 
 from twinform.diagnostics import DiagnosticSink, rules
 from twinform.diagnostics.rules import STALE_CARRIER
-from twinform.ir import Axis, Format, Joint, Limit, Model
+from twinform.ir import Axis, Format, Joint, Limit, Model, replace_fields
 from twinform.ir.defaults import AXIS, UNLIMITED, direction, filled, multiplier
 from twinform.ir.frames import MODEL, WORLD, FrameGraph
 from twinform.passes.carriers.annotations import (
@@ -84,7 +84,7 @@ class ExpressAxes(ToUrdfPass):
             for field in _AXES.get(joint.type, ()):
                 expressed = _express_axis(expressed, field, graph, keeper)
             joints.append(expressed)
-        return model.copy(joints=tuple(joints))
+        return replace_fields(model, joints=tuple(joints))
 
 
 def _express_axis(joint: Joint, field: str, graph: FrameGraph, keeper: UrdfKeeper) -> Joint:

@@ -41,7 +41,7 @@ from twinform.passes.carriers.mjcf_texts import (
     DOCUMENT,
     LOOP,
     SHAPE_OF,
-    bare_xml,
+    node_element,
     text_element,
     text_name,
     xml_data,
@@ -271,7 +271,7 @@ class _Texts:
         return node.copy(opaque=tuple(part for part in node.opaque if not is_carrier(part, "mjcf")))
 
     def _add_text(self, kind: str, name: str, left: Node, node: Node) -> None:
-        xml = bare_xml(left, kind)
+        xml = node_element(left, kind)
         self._account(xml, f"{kind} {name!r}" if name else f"the {kind}", node)
         if self.context.keeper.carriers:
             self.context.add("custom", text_element(text_name(kind, name), xml_data(xml)))

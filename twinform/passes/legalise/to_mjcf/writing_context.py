@@ -129,7 +129,7 @@ class MjcfContext:
         Raises:
             FrameError: a frame is not known, or frames go round in a circle.
         """
-        return KinematicTree(_without_gearboxes(self.holder))
+        return KinematicTree(without_gearboxes(self.holder))
 
     @cached_property
     def static_links(self) -> frozenset[str]:
@@ -361,8 +361,8 @@ def scope_of(name: str) -> str:
     return name[: name.rindex(SCOPE) + len(SCOPE)] if SCOPE in name else ""
 
 
-def _without_gearboxes(holder: Model | World) -> Model | World:
+def without_gearboxes(holder: Model | World) -> Model | World:
     """Return a model or world without the gearboxes in it: they couple joints, and hold no link."""
     joints = tuple(joint for joint in holder.joints if joint.type != "gearbox")
-    models = tuple(_without_gearboxes(model) for model in holder.models)
+    models = tuple(without_gearboxes(model) for model in holder.models)
     return replace_fields(holder, joints=joints, models=models)

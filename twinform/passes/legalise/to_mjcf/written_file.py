@@ -14,7 +14,7 @@ from twinform.passes.carriers.annotations import came_from
 from twinform.passes.carriers.mjcf_texts import Tagged, tagged
 from twinform.passes.legalise.joint_notation import ExpressAxes, ResolveJointEnds
 from twinform.passes.legalise.nested_models import flat_model
-from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext
+from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext, without_gearboxes
 from twinform.passes.legalise.to_urdf_pass import UrdfKeeper
 
 Shape = Visual | Collision
@@ -58,8 +58,9 @@ class WrittenFile:
 
     @cached_property
     def graph(self) -> FrameGraph:
-        """The frames of the flattened model."""
-        return FrameGraph(self.flat)
+        """The frames of the flattened model, which are those of the tree where nothing had to be rewritten."""
+        is_as_it_was = self.flat is without_gearboxes(self.context.holder)
+        return self.context.tree.frames if is_as_it_was else FrameGraph(self.flat)
 
     @cached_property
     def closing(self) -> frozenset[str]:
