@@ -68,8 +68,12 @@ def _elements_by_place(root: XmlElement, lines: Collection[int]) -> dict[tuple[i
 
 
 def _place_of(entry: LedgerEntry) -> _Place:
-    path, _, attribute = bare_path(entry.location.path).partition("/@")
-    return entry.location.line, path, attribute
+    line, path = entry.location.line, entry.location.path
+    before, at, attribute = path.rpartition("/@")
+    if at and attribute.isidentifier():  # most are plain, and entries about one element have one path before it
+        return line, bare_path(before), attribute
+    path, _, attribute = bare_path(path).partition("/@")
+    return line, path, attribute
 
 
 def _parts_of(place: _Place, elements: dict[tuple[int, str], list[XmlElement]]) -> Iterator[_Part]:
@@ -77,8 +81,12 @@ def _parts_of(place: _Place, elements: dict[tuple[int, str], list[XmlElement]]) 
     line, path, attribute = place
     found = elements.get((line, path), ())
     if attribute:
-        names = ((each, str(name)) for each in found for name in each.keys())  # noqa: SIM118 - see `_own_parts`
-        yield from ((each, name) for each, name in names if bare_path(name_in_sdf(each, name)) == attribute)
+        for each in found:
+            is_root = each.getparent() is None
+            for name in each.keys():  # noqa: SIM118 - see `_own_parts`
+                # to compare the ends is much quicker, and few names have a prefix
+                if (is_root or name.endswith(attribute)) and bare_path(name_in_sdf(each, str(name))) == attribute:
+                    yield each, str(name)
         return
     for each in found:
         yield from _own_parts(each)

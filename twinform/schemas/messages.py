@@ -65,6 +65,7 @@ class Context:
     element has about the document rather than about its node. `broken` is whether some node lacks what its class needs,
     so that the document is good for checks only; then there is a finding as well. `stand_ins` are the values that such
     nodes have instead, where they are no likely guesses. In a `partial` document, as a carrier is, nothing is missing.
+    `keeps` is whether elements without a field are kept, and not only checked.
     """
 
     sink: DiagnosticSink
@@ -78,6 +79,7 @@ class Context:
     aside: bool = False
     declared: bool = True
     partial: bool = False
+    keeps: bool = True
     outside: list[tuple[XmlElement, Fact]] = field(default_factory=list[tuple[XmlElement, Fact]])
     header: dict[str, object] = field(default_factory=dict[str, object])
     broken: bool = False

@@ -113,7 +113,8 @@ class SchemaReader:
 
         def read(child: XmlElement, node: Data, context: Context, place: int) -> None:
             check(child, node, context, place)
-            keep_element(child, node, at, context)
+            if context.keeps:
+                keep_element(child, node, at, context)
 
         return read
 

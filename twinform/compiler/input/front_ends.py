@@ -152,6 +152,12 @@ def build_mjcf(root: XmlElement, context: Context) -> Document:
     return _make_document({"format": Format.MJCF, **data})
 
 
+def build_checked_mjcf(root: XmlElement, context: Context) -> Document:
+    """Build the document of a `<mujoco>` in the terms of MJCF, of which everything was reported before."""
+    quiet = Context(DiagnosticSink(), context.file, context.format, context.version, simple=context.simple)
+    return build_mjcf(root, quiet)
+
+
 ROOTS: dict[str, tuple[str, Callable[[XmlElement, Context], Document]]] = {
     "robot": ("urdf", build_urdf),
     "sdf": ("sdf", build_sdf),

@@ -13,6 +13,7 @@ from twinform.compiler.input.finding_lines import with_exact_lines
 from twinform.compiler.input.front_ends import (
     LARGE,
     ROOTS,
+    build_checked_mjcf,
     build_document,
     check_extensions,
     declared_version,
@@ -357,6 +358,7 @@ def read_document(
     size = None if load_options.keep_tree else parts_of(root)
     comments = comments if load_options.keep_comments else None
     is_mjcf = format_ == "mjcf"
+    context.keeps = not is_mjcf or load_options.as_mjcf  # what is lowered is made of the tree
     is_used_up = not (load_options.keep_tree or comments or is_mjcf) and context.simple and len(text) > LARGE
     document = build_document(build, used_up(root) if is_used_up else root, context)
     if errors:
@@ -370,8 +372,10 @@ def read_document(
 
         lowered = lower_mjcf(root, context, load_options)
         context.broken = context.broken or lowered is None
-        document = lowered or document
+        document = lowered or build_checked_mjcf(root, context)
         namespaces = document.namespaces if lowered else namespaces
+    elif not context.keeps:
+        document = build_checked_mjcf(root, context)
     amend(document, "namespaces", namespaces)
     allowances.settle(sink)
     return document, context, None if is_used_up else root, size, comments

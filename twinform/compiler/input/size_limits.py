@@ -141,8 +141,9 @@ def excess_of_tree(root: XmlElement, text: bytes, limits: Limits = USUAL_LIMITS)
             where = Location(line=deep[0].sourceline or 0, path=f"/{root.tag}")
             return Excess(f"models are in each other more than {DEEPEST_MODELS} deep", where)
     # a robot that needs more tags than usual has more links, all of which are in one element
-    if limits.tags <= MOST_TAGS and text.count(b"<") > MOST_STRAY_TEXTS:
-        excess = _excess_of_parts(root)
+    if limits.tags <= MOST_TAGS and (tags := text.count(b"<")) > MOST_STRAY_TEXTS:
+        excess = _excess_of_children(root) if tags > MOST_CHILDREN else None
+        excess = excess or _excess_of_texts(root)
         if excess is not None:
             return excess
     if not _LONG_TAG.search(text):
@@ -160,15 +161,19 @@ def excess_of_tree(root: XmlElement, text: bytes, limits: Limits = USUAL_LIMITS)
     return None
 
 
-def _excess_of_parts(root: XmlElement) -> Excess | None:
-    """Return how a tree exceeds the limits on elements in one, and on texts between elements, or None."""
+def _excess_of_children(root: XmlElement) -> Excess | None:
+    """Return how a tree exceeds the limit on elements in one, or None."""
     populous = cast("list[XmlElement]", _POPULOUS(root))
-    if populous:
-        element = populous[0]
-        count = sum(1 for _ in element.iterchildren("*"))
-        message = f"<{element.tag}> has {count:,} elements in it; the limit is {MOST_CHILDREN:,}"
-        where = Location(line=element.sourceline or 0, path=path_of(element))
-        return Excess(message, where, LIFTED_BY_TAGS)
+    if not populous:
+        return None
+    element = populous[0]
+    count = sum(1 for _ in element.iterchildren("*"))
+    message = f"<{element.tag}> has {count:,} elements in it; the limit is {MOST_CHILDREN:,}"
+    return Excess(message, Location(line=element.sourceline or 0, path=path_of(element)), LIFTED_BY_TAGS)
+
+
+def _excess_of_texts(root: XmlElement) -> Excess | None:
+    """Return how a tree exceeds the limit on texts between elements, or None."""
     texts = int(cast("float", _STRAY_TEXTS(root)))
     if texts <= MOST_STRAY_TEXTS:
         return None

@@ -64,33 +64,33 @@ def remainder(node: AnyNode, said: Said, notes: Notes = _no_notes) -> AnyNode | 
     base = node
     if isinstance(fields, Left):
         base, fields = cast("AnyNode", fields.node), fields.fields
-    more = notes(node)
-    parts = _parts_of(base.__class__, fields)
-    if not more and parts.values(base) == parts.blank:  # most nodes are said as a whole
+    more, parts = notes(node), _parts_of(base.__class__, fields)
+    values = parts.values(base)
+    if not more and values == parts.blank:  # as of most nodes, and comparing takes less than looking at each field
         return None
-    update: dict[str, object] = {}
-    is_said, has_content = base is not node or EXISTENCE in fields, bool(more or base.opaque)
-    for name, usual in parts.unsaid:
-        value = getattr(base, name)
-        if not value and (value is None or value == ()):  # as most are; to compare records takes longer
-            continue
-        left = _left_of(value, said, notes)
-        if left is value:
-            has_content = True
-            continue
-        is_said = True
-        update[name] = usual if left is None else left
-        has_content = has_content or left is not None
-    if not has_content:
+    update, has_content = _left_in(zip(parts.unsaid, values, strict=False), said, notes)
+    if not (has_content or more or base.opaque):
         return None
-    for name, usual in parts.said:
-        if not _is_unwritten(getattr(base, name)):
-            update[name] = usual
-            is_said = True
+    update |= {name: usual for name, usual in parts.said if not _is_unwritten(getattr(base, name))}
+    is_said = update or base is not node or EXISTENCE in fields
     rest = (_REST,) if is_said and not isinstance(node, _LOOSE) else ()
     if rest or more:
         update["opaque"] = (*rest, *more, *base.opaque)
     return base.copy(**update) if update else base
+
+
+def _left_in(unsaid: Iterable[tuple[_Usual, object]], said: Said, notes: Notes) -> tuple[dict[str, object], bool]:
+    """What is left of the values of fields of which something is said, and whether anything is left of any field."""
+    update: dict[str, object] = {}
+    has_content = False
+    for (name, usual), value in unsaid:
+        if _is_unwritten(value):
+            continue
+        left = _left_of(value, said, notes)
+        has_content = has_content or left is not None
+        if left is not value:
+            update[name] = usual if left is None else left
+    return update, has_content
 
 
 def _with_notes(node: AnyNode, notes: Notes) -> AnyNode:
@@ -253,7 +253,7 @@ class _Parts(NamedTuple):
 
     unsaid: tuple[_Usual, ...]
     said: tuple[_Usual, ...]
-    values: Callable[[Node], object]
+    values: Callable[[Node], tuple[object, ...]]
     blank: tuple[object, ...]
 
 
