@@ -63,6 +63,8 @@ from twinform.schemas import (
 
 _JSON = lazy_pattern(rb"(\xef\xbb\xbf)?\s*\{")
 """How a JSON document begins."""
+_DECLARATION = lazy_pattern(rb"\sxmlns[^\s=]*\s*=\s*[\"']")
+"""A declaration of a namespace; in the carriers of MJCF, which are XML in attributes, the quotes are references."""
 _USD = (".usd", ".usda", ".usdc", ".usdz")
 _USD_MARKS = (b"#usda", b"PXR-USDC", b"PK\3\4")
 _OLD_ROOT = "gazebo"
@@ -411,7 +413,7 @@ def read_tree_again(text: bytes, *, keep_comments: bool = False) -> XmlElement:
 def _is_plain(text: bytes, sink: DiagnosticSink) -> bool:
     """Whether no name has a namespace: none is declared, and no prefix was repaired; UTF-16 has zero bytes."""
     repaired = any(found.rule is rules.REPAIRED_XML for found in sink.diagnostics)
-    return not repaired and b"xmlns" not in text and b"\0" not in text
+    return not repaired and not _DECLARATION.search(text) and b"\0" not in text
 
 
 def _declares_inside(root: XmlElement, text: bytes, sink: DiagnosticSink) -> bool:

@@ -40,6 +40,8 @@ class CopyBudget:
 
     def spend_on_replicates(self, root: XmlElement, findings: ElementFindings) -> bool:
         """Count what the replicates of a tree are going to make."""
+        if next(root.iter("replicate"), None) is None:
+            return True
         weights: dict[XmlElement, int] = {}
         worldbodies = list(root.iterchildren("worldbody"))
         for element in (each for top in worldbodies for each in _inner_first(top)):

@@ -8,6 +8,8 @@ from collections.abc import Iterator
 from copy import deepcopy
 from typing import Unpack
 
+from lxml import etree
+
 from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, Rule
 from twinform.schemas import Context, XmlElement
@@ -69,9 +71,7 @@ def set_line(element: XmlElement, other: XmlElement) -> None:
 
 def take_numbers_out(root: XmlElement) -> None:
     """Remove the numbers from a tree, and those of attached models."""
-    for element in _elements(root):
-        for name in (NUMBER, SLOT, TURN):
-            element.attrib.pop(name, None)
+    etree.strip_attributes(root, NUMBER, SLOT, TURN)
 
 
 def _elements(root: XmlElement) -> Iterator[XmlElement]:

@@ -1,6 +1,9 @@
 """What only the notation of a file says, and the ledger: classes of defaults, and settings of how the file is read."""
 
 from collections.abc import Iterator
+from typing import cast
+
+from lxml import etree
 
 from twinform.diagnostics import DiagnosticSink, Fate, Location, rules
 from twinform.schemas import XmlElement, path_of
@@ -13,6 +16,9 @@ _SETTINGS = (
 """Attributes of `compiler` that decide what others mean, and nothing else."""
 
 
+_MAY_HAVE_NOTATION = etree.XPath(
+    "*[not(self::default)]/descendant-or-self::*[@class or @childclass or self::compiler or self::frame]"
+)
 _EXPANDED = {
     "default": "the values of <default> are written into each element that they are for",
     "replicate": "the copies that <replicate> makes are written",
@@ -39,7 +45,6 @@ def note_notation(root: XmlElement, sink: DiagnosticSink) -> None:
 
 def _notation(root: XmlElement) -> Iterator[tuple[XmlElement, str]]:
     """Yield the attributes that are notation, each with its element."""
-    sections = (each for each in root.iterchildren("*") if each.tag != "default")
-    for element in (each for section in sections for each in section.iter("*")):
+    for element in cast("list[XmlElement]", _MAY_HAVE_NOTATION(root)):
         names = _SETTINGS if element.tag == "compiler" else (*_CLASSES, "name") if element.tag == "frame" else _CLASSES
         yield from ((element, name) for name in names if element.get(name) is not None)

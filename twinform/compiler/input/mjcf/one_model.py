@@ -88,6 +88,6 @@ def _held(link: Link, taken: set[str]) -> Joint:
 def _in_rpy(pose: Pose) -> Pose:
     if pose.quat_xyzw is None:
         return pose
-    turn = Transform.from_pose(pose.copy(relative_to=None))
+    turn = Transform.from_pose(pose)
     rpy = None if turn.is_unturned else turn.rpy()
     return pose.copy(rpy=rpy, quat_xyzw=None, rotation_format=None)
