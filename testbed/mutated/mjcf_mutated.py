@@ -7,9 +7,7 @@ from random import Random
 from lxml import etree
 
 from testbed.corpus.files import ROOT, Kind
-from testbed.mutated.mutants import mutant
-from testbed.mutated.mutated import Mutated
-from testbed.mutated.slips import slipped
+from testbed.mutated.mutated import Mutated, mistaken
 from twinform.schemas import XmlElement
 
 _LARGEST = 6000
@@ -26,12 +24,10 @@ def mjcf_sources(*, fetched: bool = True) -> tuple[Path, ...]:
 
 
 def mutated_mjcf(seed: int, *, fetched: bool = True) -> Mutated:
-    """One document in two has one slip, one in four two, and one in four up to four blind changes."""
+    """The document of a number, with mistakes as in those of the corpus."""
     random = Random(seed)
     path = random.choice(mjcf_sources(fetched=fetched))
-    root = _root(path)
-    made = mutant(root, random) if seed % 4 == 3 else slipped(root, random, 1 + seed % 4 // 2)
-    return Mutated(Kind.MJCF, seed, path.relative_to(ROOT).as_posix(), etree.tostring(made))
+    return mistaken(Kind.MJCF, seed, random, path.relative_to(ROOT).as_posix(), _root(path))
 
 
 def _is_source(path: Path) -> bool:

@@ -40,9 +40,13 @@ def mutated(kind: Kind, seed: int) -> Mutated:
     """One document in two has one slip, one in four two, and one in four up to four blind changes."""
     random = Random(seed)
     file = random.choice(sources(kind))
-    root = _root(file)
+    return mistaken(kind, seed, random, file.name, _root(file))
+
+
+def mistaken(kind: Kind, seed: int, random: Random, file: str, root: XmlElement) -> Mutated:
+    """The document of a number, made of a file."""
     made = mutant(root, random) if seed % 4 == 3 else slipped(root, random, 1 + seed % 4 // 2)
-    return Mutated(kind, seed, file.name, etree.tostring(made))
+    return Mutated(kind, seed, file, etree.tostring(made))
 
 
 def _is_source(file: CorpusFile) -> bool:
