@@ -10,6 +10,8 @@ from typing import BinaryIO, Self
 
 from twinform.dataclass import dataclass
 
+MADE_BY_TOOLS = ("build", "install", "log", "node_modules", "venv", "site-packages", "__pycache__")
+"""Names of folders that hold nothing that people write."""
 _HIDDEN = f"{os.sep}."
 
 
@@ -267,6 +269,13 @@ def folders_around(file: Path, root: Path | None = None) -> tuple[Path, ...]:
         # by the path by which the file was named as far as that goes, so that messages have it
         name = name.parent if name.name not in {"", ".."} else folder.parent
     return tuple(folders) if own.parent != own else ()
+
+
+def walk_folders(top: Path) -> Iterator[tuple[str, list[str]]]:
+    """Yield a folder and those below in order, each with the names in it; hidden ones and `MADE_BY_TOOLS` left out."""
+    for place, inner, names in os.walk(top):
+        inner[:] = sorted(each for each in inner if not each.startswith(".") and each not in MADE_BY_TOOLS)
+        yield place, names
 
 
 def neighborhood(root: Path) -> Path | None:

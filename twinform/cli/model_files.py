@@ -8,6 +8,7 @@ from typing import Protocol
 from twinform.compiler.input.load_options import XACRO
 from twinform.compiler.input.root_names import is_mjcf, may_be_mjcf
 from twinform.dataclass import dataclass
+from twinform.file_access import MADE_BY_TOOLS
 
 SRDF = ".srdf"
 PARAMETERS = (".yaml", ".yml")
@@ -19,7 +20,7 @@ _ENOUGH = 2**12
 _LARGEST = 2**24
 _BLANK = b"\xef\xbb\xbf\xff\xfe \t\r\n"
 """What may stand before the first tag."""
-DEFAULT_EXCLUDE = ("build/", "install/", "log/", "node_modules/", "venv/", "site-packages/", "__pycache__/")
+DEFAULT_EXCLUDE = tuple(f"{name}/" for name in MADE_BY_TOOLS)
 """The default exclusion, folders that tools make; hidden files and folders are always left out."""
 
 

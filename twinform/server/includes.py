@@ -1,15 +1,15 @@
 """Includes: the files that a document includes, and the documents of the workspace that include it."""
 
-import os
 import re
 from collections.abc import Iterable, Iterator
-from itertools import islice
+from itertools import chain, islice
 from pathlib import Path
 
 from twinform.compiler.input.root_names import MJCF, is_mjcf
 from twinform.compiler.resolve_uris import SearchPath
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Span
+from twinform.file_access import walk_folders
 from twinform.lazy import lazy_pattern
 from twinform.passes import AssetError
 from twinform.server.documents import DocumentFiles, TextDocument
@@ -23,7 +23,6 @@ _MOST_FILES = 500
 # The most includes of one document that are followed, since one that leads nowhere is looked for in every folder.
 _MOST_INCLUDES = 2_000
 _MOST_FOLDERS = 2_000
-_SKIPPED = frozenset({"node_modules", "build", "install", "log", "__pycache__"})
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,16 +117,8 @@ def files_below(folders: Iterable[Path], endings: tuple[str, ...], most: int = _
     """Yield the files in some folders and below whose names end so, the nearest folders first; no more than `most`."""
     found = (
         Path(place, name)
-        for place, names in islice(_folders_below(folders), _MOST_FOLDERS)
+        for place, names in islice(chain.from_iterable(map(walk_folders, folders)), _MOST_FOLDERS)
         for name in sorted(names)
         if name.lower().endswith(endings) and (not name.lower().endswith(".xml") or is_mjcf(Path(place, name)))
     )
     yield from islice(found, most)
-
-
-def _folders_below(folders: Iterable[Path]) -> Iterator[tuple[str, list[str]]]:
-    """Yield some folders and those below, each with the names of its files."""
-    for folder in folders:
-        for place, inner, names in os.walk(folder):
-            inner[:] = sorted(each for each in inner if not each.startswith(".") and each not in _SKIPPED)
-            yield place, names

@@ -12,13 +12,12 @@ from twinform.compiler.input.include_graph import IncludeGraph
 from twinform.compiler.input.load_options import LoadOptions
 from twinform.compiler.input.xacro_needs import launch_files_of
 from twinform.compiler.resolve_uris import SearchPath, UriError
-from twinform.file_access import PACKAGE, find_root, has_any, own_folder, package_around, read_regular
+from twinform.file_access import PACKAGE, find_root, has_any, own_folder, package_around, read_regular, walk_folders
 
 MOST_ROBOTS = 12
 """So many robots are read for a file that may be for any of them."""
 _MOST_FOLDERS = 2000
 _MOST_FILES = 500
-_SKIPPED = frozenset({"build", "install", "log", "node_modules", "venv", "__pycache__", "site-packages"})
 _HEAD = 2**14
 _LARGEST = 2**22
 _ROOT_NAME = re.compile(rb"<robot\b[^>]*?\sname\s*=\s*[\"']([^\"'$]*)[\"']")
@@ -124,8 +123,7 @@ def _files_below(root: Path, kind: Callable[[Path], bool]) -> Iterator[Path]:
 
 
 def _all_below(root: Path, kind: Callable[[Path], bool]) -> Iterator[Path]:
-    for place, inner, names in islice(os.walk(root), _MOST_FOLDERS):
-        inner[:] = sorted(each for each in inner if not each.startswith(".") and each not in _SKIPPED)
+    for place, names in islice(walk_folders(root), _MOST_FOLDERS):
         files = (Path(place, name) for name in sorted(names) if not name.startswith("."))
         yield from filter(kind, files)
 
