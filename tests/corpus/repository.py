@@ -14,6 +14,7 @@ import yaml
 from click.testing import CliRunner, Result
 
 from testbed.corpus.files import CORPUS
+from tests.write_files import write_files
 from twinform.cli import main
 
 _HOOKS = Path(__file__).parents[2] / ".pre-commit-hooks.yaml"
@@ -64,9 +65,7 @@ def build(corpus: Path, folder: Path) -> None:
     shutil.copytree(corpus / PUBLIC, folder / "turtlebot3")
     files = {"twinform.toml": _CONFIGURATION, "robots/arm.urdf.xacro": _ARM, "robots/parts.xacro": _PARTS}
     files |= {".gitignore": "/scratch/\n", "scratch/broken.urdf": "<robot", "build/broken.urdf": "<robot"}
-    for name, text in files.items():
-        (folder / name).parent.mkdir(parents=True, exist_ok=True)
-        (folder / name).write_text(text)
+    write_files(folder, files)
     (folder / "known").mkdir()
     (folder / ".git/info").mkdir(parents=True, exist_ok=True)
     suppress(folder / WORLD, "the inertia of link 'Wall_3'", "allow indefinite-inertia - walls do not move", folder)

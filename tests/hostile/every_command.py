@@ -183,10 +183,3 @@ def _answer(process: subprocess.Popen[bytes], is_it: Callable[[Mapping[str, Any]
         message = json.loads(process.stdout.read(length))
         if is_it(message):
             return message
-
-
-def write_files(folder: Path) -> None:
-    """Write the files that the calls of all commands name."""
-    for name, text in FILES.items():
-        (folder / name).parent.mkdir(parents=True, exist_ok=True)
-        (folder / name).write_text(text)

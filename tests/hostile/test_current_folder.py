@@ -9,8 +9,9 @@ from pathlib import Path
 import pytest
 
 from tests.profile import DEEP
+from tests.write_files import write_files
 
-from .every_command import INVOCATIONS, Printed, commands, run, write_files
+from .every_command import FILES, INVOCATIONS, Printed, commands, run
 
 _WITH_CHILDREN = {"batch stats", "lsp", "mcp", "view"}
 """Commands that start every kind of child process between them; the quick tests try only these."""
@@ -53,7 +54,7 @@ def test_every_command_is_tried() -> None:
 def test_a_command_runs_no_module_of_the_current_folder(command: str, tmp_path: Path) -> None:
     clean, poisoned = tmp_path / "clean" / "here", tmp_path / "poisoned" / "here"
     for folder in (clean, poisoned):
-        write_files(folder)
+        write_files(folder, FILES)
     _poison(poisoned)
     found = _calls(command, poisoned)
     assert not _marker(poisoned).exists(), _marker(poisoned).read_text()
@@ -65,7 +66,7 @@ def test_a_command_runs_no_module_of_the_current_folder(command: str, tmp_path: 
 def test_an_empty_entry_of_a_search_path_is_not_the_current_folder(tmp_path: Path) -> None:
     # what Python imports before the program begins cannot be helped, so there is no module of Python's own here
     folder = tmp_path / "here"
-    write_files(folder)
+    write_files(folder, FILES)
     text = f"open({str(_marker(folder))!r}, 'a').close()"
     for name in ("lxml", "pebble", "pydantic"):
         (folder / f"{name}.py").write_text(text)

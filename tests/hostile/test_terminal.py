@@ -8,9 +8,10 @@ from pathlib import Path
 import pytest
 
 from tests.profile import DEEP
+from tests.write_files import write_files
 
 from .child import twinform
-from .every_command import INVOCATIONS, run, write_files
+from .every_command import FILES, INVOCATIONS, run
 
 _TEXT = "e\x9b31m\u202e\u2066\u200f\u061c\u2028\u2029v"
 """What may stand in XML."""
@@ -78,7 +79,7 @@ def _obeyed(output: str) -> set[str]:
 def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A folder whose files have hostile names and contents."""
     found = tmp_path_factory.mktemp("hostile")
-    write_files(found)
+    write_files(found, FILES)
     for name, text in _FILES.items():
         (found / name).parent.mkdir(exist_ok=True)
         (found / name).write_text(text, errors="surrogateescape")
@@ -152,7 +153,7 @@ def test_options_change_nothing_about_it(words: Sequence[str], folder: Path) -> 
 @pytest.mark.parametrize("text", [_CONFIGURATION, _VALUES])
 @pytest.mark.parametrize("command", ["check", "convert", "format", "passes", "batch check"])
 def test_configurations_are_escaped(command: str, text: str, tmp_path: Path) -> None:
-    write_files(tmp_path)
+    write_files(tmp_path, FILES)
     (tmp_path / "twinform.toml").write_text(text)
     words = [
         *command.split(),

@@ -16,7 +16,9 @@ from websockets.asyncio.client import connect
 from websockets.exceptions import InvalidStatus
 from websockets.typing import Origin, Subprotocol
 
-from .every_command import PROGRAM, write_files
+from tests.write_files import write_files
+
+from .every_command import FILES, PROGRAM
 
 pytest.importorskip("viser", reason="viser is not installed")
 
@@ -24,7 +26,7 @@ pytest.importorskip("viser", reason="viser is not installed")
 @pytest.fixture(scope="module")
 def running(tmp_path_factory: pytest.TempPathFactory) -> Iterator[subprocess.Popen[str]]:
     folder = tmp_path_factory.mktemp("models")
-    write_files(folder)
+    write_files(folder, FILES)
     pipe = subprocess.PIPE
     command = [PROGRAM, "view", "cube.urdf", "--no-open"]
     with subprocess.Popen(command, cwd=folder, stdout=pipe, stderr=pipe, text=True) as process:

@@ -9,7 +9,8 @@ from typing import Any
 import pytest
 from click.testing import CliRunner, Result
 
-from tests.unit.compiler.packaging.robots import ARM, FILES, write
+from tests.unit.compiler.packaging.robots import ARM, FILES
+from tests.write_files import write_files
 from twinform.cli import main
 from twinform.testing import oracles
 
@@ -61,7 +62,7 @@ def _arm(folder: Path, base: str = "base.STL", content: bytes = STL_BINARY) -> P
     robot = ARM.replace("collision/base.STL", f"collision/{base}").encode()
     files = {name: data for name, data in FILES.items() if name != "meshes/collision/base.STL"}
     files |= {"urdf/arm.urdf": robot, "meshes/tip one.stl": STL_TEXT, f"meshes/collision/{base}": content}
-    return write(folder / "arm_description", files) / "urdf/arm.urdf"
+    return write_files(folder / "arm_description", files) / "urdf/arm.urdf"
 
 
 @pytest.mark.parametrize(("base", "content"), [("base.STL", STL_BINARY), ("base.stl", STL_TEXT), ("base.dae", COLLADA)])

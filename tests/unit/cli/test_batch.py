@@ -12,6 +12,7 @@ from typing import Any, ClassVar
 import pytest
 
 from tests.unit.passes.framework.conftest import write_distribution
+from tests.write_files import write_files
 from twinform.compiler.batch.entries import outputs
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document
@@ -54,16 +55,16 @@ def _chaos(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyP
 def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A current folder with models in `src`."""
     monkeypatch.chdir(tmp_path)
-    for name, text in {
-        "one.urdf": GOOD,
-        "deep/er/two.urdf": GOOD.replace("one", "two"),
-        "deep/warned.urdf": WARNED,
-        "notes.txt": "no model",
-        ".git/hidden.urdf": GOOD,
-    }.items():
-        path = tmp_path / "src" / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text)
+    write_files(
+        tmp_path / "src",
+        {
+            "one.urdf": GOOD,
+            "deep/er/two.urdf": GOOD.replace("one", "two"),
+            "deep/warned.urdf": WARNED,
+            "notes.txt": "no model",
+            ".git/hidden.urdf": GOOD,
+        },
+    )
     return tmp_path
 
 

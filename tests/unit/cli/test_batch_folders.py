@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from tests.unit.compiler.batch.test_model_folders import FILES
-from tests.unit.compiler.packaging.robots import write
+from tests.write_files import write_files
 
 from .conftest import Run
 
@@ -13,7 +13,7 @@ from .conftest import Run
 @pytest.fixture
 def crate(tmp_path: Path) -> Path:
     """A model folder."""
-    return write(tmp_path / "models/crate", FILES)
+    return write_files(tmp_path / "models/crate", FILES)
 
 
 @pytest.mark.slow

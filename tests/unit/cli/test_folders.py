@@ -4,6 +4,8 @@ from pathlib import Path
 
 import pytest
 
+from tests.write_files import write_files
+
 from .conftest import GOOD, Run
 
 MACROS = (
@@ -14,17 +16,17 @@ MACROS = (
 @pytest.fixture
 def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)
-    for name, text in {
-        "a.urdf": GOOD.replace("\n", "\n "),
-        "robots/parts.xacro": MACROS,
-        "robots/b.urdf": GOOD.replace("\n", "\n "),
-        "build/c.urdf": GOOD.replace("\n", "\n "),
-        "robots/data.json": "{}",
-        "notes.xml": "<a><b/></a>",
-    }.items():
-        (tmp_path / name).parent.mkdir(exist_ok=True)
-        (tmp_path / name).write_text(text)
-    return tmp_path
+    return write_files(
+        tmp_path,
+        {
+            "a.urdf": GOOD.replace("\n", "\n "),
+            "robots/parts.xacro": MACROS,
+            "robots/b.urdf": GOOD.replace("\n", "\n "),
+            "build/c.urdf": GOOD.replace("\n", "\n "),
+            "robots/data.json": "{}",
+            "notes.xml": "<a><b/></a>",
+        },
+    )
 
 
 CASES: dict[tuple[str, ...], set[str]] = {

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from tests.snippets import STL
-from tests.unit.compiler.packaging.robots import write
+from tests.write_files import write_files
 
 from .conftest import Run
 
@@ -32,7 +32,7 @@ def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 @pytest.fixture
 def crate(tmp_path: Path) -> Path:
     """A model folder."""
-    return write(tmp_path / "models/crate", FILES)
+    return write_files(tmp_path / "models/crate", FILES)
 
 
 def test_a_model_is_found_by_its_address(run: Run, cache: Path, crate: Path, tmp_path: Path) -> None:
@@ -61,7 +61,7 @@ def test_the_same_files_are_one_version_and_others_the_next(run: Run, cache: Pat
 
 
 def test_a_folder_of_models_is_added_whole(run: Run, cache: Path, crate: Path) -> None:
-    write(crate.parent / "ball", {**FILES, "model.config": b"<model><sdf version='1.9'>model.sdf</sdf></model>"})
+    write_files(crate.parent / "ball", {**FILES, "model.config": b"<model><sdf version='1.9'>model.sdf</sdf></model>"})
     found = run("fuel", "add", crate.parent, "--owner", "me").stdout
     assert [line.rsplit("/", 2)[1] for line in found.splitlines()] == ["ball", "Big%20Crate"]
     assert run("fuel", "add", crate.parent, "--owner", "me", "--name", "x").exit_code == 2
@@ -69,7 +69,7 @@ def test_a_folder_of_models_is_added_whole(run: Run, cache: Path, crate: Path) -
 
 
 def test_a_world_is_found_by_its_address(run: Run, cache: Path, tmp_path: Path) -> None:
-    folder = write(tmp_path / "hall", {"hall.sdf": WORLD.encode()})
+    folder = write_files(tmp_path / "hall", {"hall.sdf": WORLD.encode()})
     assert run("fuel", "add", folder, "--owner", "me").stdout.endswith("/me/worlds/hall/1\n")
     assert (cache / "fuel.gazebosim.org/me/worlds/hall/1/hall.sdf").is_file()
 
@@ -89,7 +89,7 @@ def test_a_folder_of_nothing_is_refused(run: Run, cache: Path, tmp_path: Path) -
 
 
 def test_links_that_lead_elsewhere_stay_behind(run: Run, cache: Path, crate: Path, tmp_path: Path) -> None:
-    write(tmp_path, {"secret": b"private"})
+    write_files(tmp_path, {"secret": b"private"})
     (crate / "meshes/secret").symlink_to(tmp_path / "secret")
     assert run("fuel", "add", crate, "--owner", "me").exit_code == 0
     assert not list(cache.rglob("secret"))

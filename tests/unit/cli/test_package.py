@@ -10,7 +10,8 @@ import pytest
 import twinform
 from tests.snippets import INERTIAL, STL
 from tests.unit.cli.conftest import GOOD, Run
-from tests.unit.compiler.packaging.robots import ARM, FILES, PNG, arm, write
+from tests.unit.compiler.packaging.robots import ARM, FILES, PNG, arm
+from tests.write_files import write_files
 from twinform.testing.oracles.libsdformat import MISSING, available, models_of, named_files
 
 pytestmark = pytest.mark.slow
@@ -181,22 +182,22 @@ def _linked_out(folder: Path) -> None:
 
 
 def _climbing(folder: Path) -> None:
-    write(folder, {"secret.png": PNG})
+    write_files(folder, {"secret.png": PNG})
     (folder / "arm_description/meshes/visual/arm.mtl").write_text("newmtl skin\nmap_Kd ../../../secret.png\n")
 
 
 def _absolute(folder: Path) -> None:
-    write(folder, {"secret.png": PNG})
+    write_files(folder, {"secret.png": PNG})
     (folder / "arm_description/meshes/visual/arm.mtl").write_text(f"newmtl skin\nmap_Kd {folder}/secret.png\n")
 
 
 def _another_kind(folder: Path) -> None:
-    write(folder, {"arm_description/meshes/notes.txt": b"private"})
+    write_files(folder, {"arm_description/meshes/notes.txt": b"private"})
     (folder / "arm_description/meshes/visual/arm.mtl").write_text("newmtl skin\nmap_Kd ../notes.txt\n")
 
 
 def _another_kind_by_link(folder: Path) -> None:
-    write(folder, {"arm_description/meshes/notes.txt": b"private"})
+    write_files(folder, {"arm_description/meshes/notes.txt": b"private"})
     skin = folder / "arm_description/meshes/textures/skin.png"
     skin.unlink()
     skin.symlink_to("../notes.txt")
@@ -221,7 +222,7 @@ def test_files_of_somebody_else_are_not_copied(run: Run, tmp_path: Path, hostile
 
 def test_files_of_somebody_else_are_not_written_over(run: Run, tmp_path: Path) -> None:
     source = arm(tmp_path)
-    write(tmp_path / "out", {"model.sdf": b"mine", "notes.txt": b"mine"})
+    write_files(tmp_path / "out", {"model.sdf": b"mine", "notes.txt": b"mine"})
     done = run("package", source, "-o", tmp_path / "out", "--kind", "gazebo-model", *SAID)
     assert done.exit_code == 2
     assert "model.sdf would be written over" in done.stderr
@@ -300,8 +301,8 @@ def test_one_content_is_there_once_and_one_name_twice(run: Run, tmp_path: Path) 
         "c/other.stl": STL,
         "d/PART.STL": b"solid",
     }
-    write(tmp_path, {f"pkg_{path[0]}/meshes/{path[2:]}": data for path, data in meshes.items()})
-    write(tmp_path, {f"pkg_{name}/package.xml": f"<package><name>{name}</name></package>".encode() for name in "abcd"})
+    write_files(tmp_path, {f"pkg_{path[0]}/meshes/{path[2:]}": data for path, data in meshes.items()})
+    write_files(tmp_path, {f"pkg_{name}/package.xml": f"<package><name>{name}</name></package>" for name in "abcd"})
     uris = (f"package://{path[0]}/meshes/{path[2:]}" for path in meshes)
     shapes = "".join(f'<visual><geometry><mesh filename="{uri}"/></geometry></visual>' for uri in uris)
     source.write_text(f'<robot name="r"><link name="l">{INERTIAL}{shapes}</link></robot>')
@@ -312,14 +313,14 @@ def test_one_content_is_there_once_and_one_name_twice(run: Run, tmp_path: Path) 
 
 
 def test_names_are_those_that_every_program_takes(run: Run, tmp_path: Path) -> None:
-    source = write(tmp_path, {"r.urdf": b"", "meshes/Bras été #1.stl": STL}) / "r.urdf"
+    source = write_files(tmp_path, {"r.urdf": b"", "meshes/Bras été #1.stl": STL}) / "r.urdf"
     mesh = '<visual><geometry><mesh filename="meshes/Bras été #1.stl"/></geometry></visual>'
     source.write_text(f'<robot name="r"><link name="l">{INERTIAL}{mesh}</link></robot>')
     assert "meshes/Bras_ete_1.stl" in _package(run, source, tmp_path / "out")
 
 
 def test_a_world_becomes_folders_of_its_models(run: Run, tmp_path: Path) -> None:
-    source = write(tmp_path, {"hall.sdf": WORLD.encode(), "meshes/top.stl": STL}) / "hall.sdf"
+    source = write_files(tmp_path, {"hall.sdf": WORLD.encode(), "meshes/top.stl": STL}) / "hall.sdf"
     files = _package(run, source, tmp_path / "out")
     assert set(files) == {
         ".twinform-package", "worlds/hall.sdf", "models/table/model.config", "models/table/model.sdf",
@@ -335,7 +336,7 @@ def test_a_world_becomes_folders_of_its_models(run: Run, tmp_path: Path) -> None
 @pytest.mark.skipif(not available(), reason=MISSING)
 def test_libsdformat_reads_the_world_with_all_its_models(run: Run, tmp_path: Path) -> None:
     text = WORLD.replace("<include><uri>model://sun</uri></include>", "")
-    source = write(tmp_path, {"hall.sdf": text.encode(), "meshes/top.stl": STL}) / "hall.sdf"
+    source = write_files(tmp_path, {"hall.sdf": text.encode(), "meshes/top.stl": STL}) / "hall.sdf"
     _, before = models_of(source)
     _package(run, source, tmp_path / "out")
     world = tmp_path / "out/worlds/hall.sdf"
@@ -350,7 +351,7 @@ def test_libsdformat_reads_the_world_with_all_its_models(run: Run, tmp_path: Pat
 
 
 def test_a_model_of_a_world_may_be_taken_alone(run: Run, tmp_path: Path) -> None:
-    source = write(tmp_path, {"hall.sdf": WORLD.encode(), "meshes/top.stl": STL}) / "hall.sdf"
+    source = write_files(tmp_path, {"hall.sdf": WORLD.encode(), "meshes/top.stl": STL}) / "hall.sdf"
     files = _package(run, source, tmp_path / "table", "--model", "table")
     assert {"model.sdf", "model.config", "meshes/top.stl"} < set(files)
 
@@ -359,7 +360,7 @@ def test_an_include_of_the_same_name_is_refused(run: Run, tmp_path: Path) -> Non
     text = WORLD.replace("model://sun", "model://table").replace(
         "<uri>model://table", "<name>x</name><uri>model://table"
     )
-    source = write(tmp_path, {"hall.sdf": text.encode(), "meshes/top.stl": STL}) / "hall.sdf"
+    source = write_files(tmp_path, {"hall.sdf": text.encode(), "meshes/top.stl": STL}) / "hall.sdf"
     done = run("package", source, "-o", tmp_path / "out", "--kind", "gazebo-model", *SAID)
     assert done.exit_code == 1
     assert "'model://table' would lead to the folder of another model of the package" in done.stderr
@@ -367,7 +368,7 @@ def test_an_include_of_the_same_name_is_refused(run: Run, tmp_path: Path) -> Non
 
 def test_includes_of_models_are_what_it_depends_on(run: Run, tmp_path: Path) -> None:
     text = '<sdf version="1.9"><model name="m"><include><uri>model://hand</uri></include><link name="l"/></model></sdf>'
-    source = write(tmp_path, {"m.sdf": text.encode()}) / "m.sdf"
+    source = write_files(tmp_path, {"m.sdf": text.encode()}) / "m.sdf"
     files = _package(run, source, tmp_path / "out")
     assert b"<depend>\n    <model>\n      <uri>model://hand</uri>" in files["model.config"]
 
@@ -375,7 +376,7 @@ def test_includes_of_models_are_what_it_depends_on(run: Run, tmp_path: Path) -> 
 def test_includes_by_paths_are_refused(run: Run, tmp_path: Path) -> None:
     text = '<sdf version="1.9"><model name="m"><include><uri>hand.sdf</uri></include><link name="l"/></model></sdf>'
     hand = '<sdf version="1.9"><model name="hand"><link name="l"/></model></sdf>'
-    source = write(tmp_path, {"m.sdf": text.encode(), "hand.sdf": hand.encode()}) / "m.sdf"
+    source = write_files(tmp_path, {"m.sdf": text.encode(), "hand.sdf": hand.encode()}) / "m.sdf"
     done = run("package", source, "-o", tmp_path / "out", "--kind", "gazebo-model", *SAID)
     assert done.exit_code == 1
     assert "[unpackaged-include]" in done.stderr
@@ -392,7 +393,7 @@ _WITH_PLUGIN = (
 
 @pytest.mark.parametrize("text", _WITH_PLUGIN)
 def test_parameters_of_plugins_stay_with_a_warning(run: Run, tmp_path: Path, text: str) -> None:
-    source = write(tmp_path, {"r.urdf" if text.startswith("<robot") else "r.sdf": text.encode()})
+    source = write_files(tmp_path, {"r.urdf" if text.startswith("<robot") else "r.sdf": text.encode()})
     source = next(source.glob("r.*"))
     done = run("package", source, "-o", tmp_path / "out", "--kind", "gazebo-model", *SAID)
     assert done.exit_code == 0
@@ -405,7 +406,7 @@ def test_parameters_of_plugins_stay_with_a_warning(run: Run, tmp_path: Path, tex
 
 def test_several_models_need_a_name(run: Run, tmp_path: Path) -> None:
     text = '<sdf version="1.6"><model name="a"><link name="l"/></model><model name="b"><link name="l"/></model></sdf>'
-    source = write(tmp_path, {"m.sdf": text.encode()}) / "m.sdf"
+    source = write_files(tmp_path, {"m.sdf": text.encode()}) / "m.sdf"
     done = run("package", source, "-o", tmp_path / "out", "--kind", "gazebo-model", *SAID)
     assert done.exit_code == 1
     assert "[model-not-chosen]" in done.stderr
@@ -437,7 +438,7 @@ def test_folders_of_material_scripts_come_whole(run: Run, tmp_path: Path) -> Non
         "materials/scripts/notes.txt": b"private",
         "materials/textures/wood.png": PNG,
     }
-    written = _package(run, write(tmp_path / "old", files) / "model.sdf", tmp_path / "new")
+    written = _package(run, write_files(tmp_path / "old", files) / "model.sdf", tmp_path / "new")
     assert {path for path in written if path.startswith("materials/")} == {
         "materials/scripts/wood.material", "materials/scripts/wood.vert", "materials/textures/wood.png"
     }  # fmt: skip
@@ -455,7 +456,7 @@ def test_a_texture_that_a_script_names_keeps_its_bare_name(run: Run, tmp_path: P
         "</geometry><material><script><uri>file://wood.material</uri><name>Wood</name></script></material></visual>"
         "</link></model></sdf>"
     )
-    source = write(tmp_path / "old", {"m.sdf": model.encode(), "wood.material": script, "wood.png": PNG}) / "m.sdf"
+    source = write_files(tmp_path / "old", {"m.sdf": model, "wood.material": script, "wood.png": PNG}) / "m.sdf"
     written = _package(run, source, tmp_path / "new")
     assert written["materials/scripts/wood.material"] == script
     assert written["materials/textures/wood.png"] == PNG
@@ -497,7 +498,7 @@ _EVERYWHERE = """<sdf version="1.9"><model name="arm"><link name="base">
 
 def test_files_are_found_wherever_an_element_names_one(run: Run, tmp_path: Path) -> None:
     names = ("height.png", "dirt.png", "bumps.png", "colors.png", "smoke.png", "slide.png", "beep.wav")
-    write(tmp_path, {"arm.sdf": _EVERYWHERE.encode(), **{f"media/{name}": name.encode() for name in names}})
+    write_files(tmp_path, {"arm.sdf": _EVERYWHERE.encode(), **{f"media/{name}": name.encode() for name in names}})
     files = _package(run, tmp_path / "arm.sdf", tmp_path / "out/arm")
     assert {Path(path).name for path in files} == {*names, "model.sdf", "model.config", ".twinform-package"}
     uris = set(re.findall(r"model://arm/([^<]*)<", files["model.sdf"].decode()))
@@ -507,7 +508,7 @@ def test_files_are_found_wherever_an_element_names_one(run: Run, tmp_path: Path)
 
 def test_a_picture_of_the_sky_goes_with_the_world(run: Run, tmp_path: Path) -> None:
     world = '<sdf version="1.9"><world name="w"><scene><sky><cubemap_uri>{}</cubemap_uri></sky></scene></world></sdf>'
-    write(tmp_path, {"media/sky.dds": b"sky", "w.sdf": world.format("media/sky.dds").encode()})
+    write_files(tmp_path, {"media/sky.dds": b"sky", "w.sdf": world.format("media/sky.dds").encode()})
     files = _package(run, tmp_path / "w.sdf", tmp_path / "out/w")
     (name,) = re.findall("<cubemap_uri>(.*)</cubemap_uri>", files["worlds/w.sdf"].decode())
     assert files[f"worlds/{name}"] == b"sky"
@@ -521,7 +522,7 @@ def test_an_image_of_a_folder_of_scripts_is_there_once(run: Run, tmp_path: Path)
     shape = f"<geometry><box><size>1 1 1</size></box></geometry><material>{material}</material>"
     sdf = f'<sdf version="1.9"><model name="arm"><link name="l"><visual name="v">{shape}</visual></link></model></sdf>'
     folder = {"materials/textures/skin.png": PNG, "model.config": b"<model/>", "model.sdf": sdf.encode()}
-    files = _package(run, write(tmp_path / "arm", folder) / "model.sdf", tmp_path / "out/arm")
+    files = _package(run, write_files(tmp_path / "arm", folder) / "model.sdf", tmp_path / "out/arm")
     assert [path for path in files if path.endswith(".png")] == ["materials/textures/skin.png"]
     assert b"<uri>model://arm/materials/textures</uri>" in files["model.sdf"]
 
@@ -529,7 +530,7 @@ def test_an_image_of_a_folder_of_scripts_is_there_once(run: Run, tmp_path: Path)
 def test_a_pointer_of_git_lfs_is_not_put_into_a_package(run: Run, tmp_path: Path) -> None:
     source = arm(tmp_path)
     pointer = b"version https://git-lfs.github.com/spec/v1\noid sha256:00\nsize 1\n"
-    write(tmp_path / "arm_description", {"meshes/collision/base.STL": pointer})
+    write_files(tmp_path / "arm_description", {"meshes/collision/base.STL": pointer})
     done = run("package", source, "-o", tmp_path / "out/arm", "--kind", "gazebo-model", *SAID)
     assert done.exit_code == 1
     assert "base.STL' is a pointer of Git LFS and not the file itself [unpackaged-file]" in done.stderr

@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from pathspec import GitIgnoreSpec
 
 from tests.patterns.growth import grows_too_fast
+from tests.write_files import write_files
 from twinform.cli.inputs import discover
 from twinform.cli.model_files import Exclusion, PatternError
 from twinform.cli.path_patterns import ENGINE, LONGEST, PathPatterns
@@ -79,9 +80,7 @@ MODELS = (
 def repository(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     if shutil.which("git"):
         subprocess.run(["git", "init", "-q", tmp_path], check=True)
-    for name, text in {**LAYOUT, **dict.fromkeys(MODELS, "")}.items():
-        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
-        (tmp_path / name).write_text(text)
+    write_files(tmp_path, {**LAYOUT, **dict.fromkeys(MODELS, "")})
     monkeypatch.chdir(tmp_path)
     return tmp_path
 

@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 
 import twinform
+from tests.write_files import write_files
 
 pytest.importorskip("robot_descriptions")
 
@@ -37,10 +38,7 @@ def repositories(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
         "Universal_Robots_ROS2_Description/urdf/inc/base.xacro": _BASE,
         "unitree_ros/robots/a1_description/urdf/a1.urdf": '<robot name="a1"><link name="trunk"/></robot>',
     }
-    for name, text in files.items():
-        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
-        (tmp_path / name).write_text(text)
-    return tmp_path
+    return write_files(tmp_path, files)
 
 
 def test_a_description_that_is_xacro_gets_its_arguments() -> None:

@@ -8,6 +8,7 @@ from lxml import etree
 
 import twinform
 from testbed.oracles.xml_trees import first_difference
+from tests.write_files import write_files
 from twinform.compiler import CompileError
 from twinform.diagnostics import Fate, Ledger
 
@@ -121,10 +122,7 @@ def lost(ledger: Ledger) -> list[str]:
 @pytest.fixture
 def folder(tmp_path: Path) -> Path:
     (tmp_path / ".git").mkdir()
-    for name, text in FILES.items():
-        (tmp_path / name).parent.mkdir(exist_ok=True)
-        (tmp_path / name).write_text(text)
-    return tmp_path
+    return write_files(tmp_path, FILES)
 
 
 def _world(folder: Path, body: str, version: str = "1.9") -> Path:

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.write_files import write_files
 from twinform.compiler.resolve_uris import SearchPath, UriError
 from twinform.diagnostics import rules
 
@@ -67,11 +68,7 @@ REFUSED = {
 
 @pytest.fixture
 def tree(tmp_path: Path) -> Path:
-    for name, text in TREE.items():
-        path = tmp_path / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text)
-    return tmp_path
+    return write_files(tmp_path, TREE)
 
 
 def _variables(tree: Path) -> Mapping[str, str]:

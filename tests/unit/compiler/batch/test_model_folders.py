@@ -5,7 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from tests.unit.compiler.packaging.robots import PNG, STL, write
+from tests.unit.compiler.packaging.robots import PNG, STL
+from tests.write_files import write_files
 from twinform.compiler.batch import jobs
 from twinform.compiler.batch.jobs import FolderTooLargeError, folder_files
 from twinform.compiler.request import ConversionRequest
@@ -34,7 +35,7 @@ TO_SDF = ConversionRequest(to="sdf")
 @pytest.fixture
 def crate(tmp_path: Path) -> Path:
     """A model folder."""
-    return write(tmp_path / "models/crate", FILES)
+    return write_files(tmp_path / "models/crate", FILES)
 
 
 def _rows(config: bytes) -> list[tuple[str, str]]:
@@ -75,7 +76,7 @@ def test_a_config_that_is_no_xml_brings_nothing(crate: Path) -> None:
 
 
 def test_links_that_lead_elsewhere_stay_behind(crate: Path, tmp_path: Path) -> None:
-    write(tmp_path, {"secret.txt": b"private"})
+    write_files(tmp_path, {"secret.txt": b"private"})
     (crate / "meshes/secret.txt").symlink_to(tmp_path / "secret.txt")
     (crate / "meshes/crate2.stl").symlink_to("crate.stl")
     files = folder_files(crate / "model.sdf", "crate/model.sdf", TO_SDF, "1.6")

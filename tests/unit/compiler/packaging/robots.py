@@ -4,6 +4,7 @@ import base64
 from pathlib import Path
 
 from tests.snippets import INERTIAL, STL
+from tests.write_files import write_files
 
 PNG = base64.b64decode(
     b"iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mNk+M9QDwADhgGAWjR9awAAAABJRU5ErkJggg=="
@@ -42,14 +43,6 @@ FILES = {
 }
 
 
-def write(folder: Path, files: dict[str, bytes]) -> Path:
-    """Put files into a folder; gives the folder."""
-    for path, data in files.items():
-        (folder / path).parent.mkdir(parents=True, exist_ok=True)
-        (folder / path).write_bytes(data)
-    return folder
-
-
 def arm(folder: Path) -> Path:
     """The file of the robot in a package of its own below the folder."""
-    return write(folder / "arm_description", FILES) / "urdf/arm.urdf"
+    return write_files(folder / "arm_description", FILES) / "urdf/arm.urdf"

@@ -6,6 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.write_files import write_files
 from twinform.compiler.packaging.order import PLACEHOLDERS, PackageDetails, details_around
 
 PACKAGE = """<package format="3"><name>arm</name><version>1.2.3</version>
@@ -55,9 +56,7 @@ BOMB = '<!DOCTYPE p [<!ENTITY a "ha"><!ENTITY b "&a;&a;">]><package><description
 def test_details_are_those_of_the_nearest_package_or_model(
     files: dict[str, str], expected: PackageDetails | None, tmp_path: Path
 ) -> None:
-    for name, text in files.items():
-        (tmp_path / name).parent.mkdir(exist_ok=True)
-        (tmp_path / name).write_text(text, encoding="utf-8")
+    write_files(tmp_path, files)
     found = details_around(tmp_path / "urdf" / "arm.urdf")
     assert found == expected if expected is not None else found.version == "1.0.0"
 

@@ -9,6 +9,7 @@ import pytest
 from lsprotocol import types
 
 from tests.profile import DEEP
+from tests.write_files import write_files
 from twinform.server.checking import CheckJob, EditorSettings, check, no_settings
 from twinform.server.completion import complete
 from twinform.server.documents import TextDocument
@@ -24,11 +25,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A workspace with the files of the table."""
     made = tmp_path_factory.mktemp("workspace")
     (made / ".git").mkdir()
-    for name, text in TABLE["files"].items():
-        file = made / name
-        file.parent.mkdir(parents=True, exist_ok=True)
-        file.write_text(text, encoding="utf-8")
-    return made
+    return write_files(made, TABLE["files"])
 
 
 def edited(place: dict[str, Any], folder: Path) -> tuple[Session, TextDocument, int]:

@@ -5,6 +5,7 @@ from pathlib import Path
 import pytest
 
 import twinform
+from tests.write_files import write_files
 
 pytest.importorskip("xacro")
 
@@ -38,10 +39,7 @@ FILES = {
 @pytest.fixture
 def workspace(tmp_path: Path) -> Path:
     """Two packages beside each other, in folders that are called otherwise."""
-    for name, text in FILES.items():
-        path = tmp_path / "ws" / name
-        path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text)
+    write_files(tmp_path / "ws", FILES)
     return tmp_path / "ws"
 
 
