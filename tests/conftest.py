@@ -2,7 +2,8 @@
 
 import gc
 import inspect
-from collections.abc import Generator
+import sys
+from collections.abc import Generator, Mapping
 from functools import partialmethod
 from pathlib import Path
 from typing import Any
@@ -11,7 +12,9 @@ import pytest
 from click.testing import CliRunner, Result
 
 from testbed.corpus.files import CORPUS, MISSING
+from tests.distributions import Install, write_distribution
 from tests.profile import DEEP
+from twinform.passes import registered_passes
 
 pytest.register_assert_rewrite("tests.expected")  # so that it shows what differs, as tests do
 
@@ -54,6 +57,21 @@ def corpus() -> Path:
     if not CORPUS.is_dir():
         pytest.skip(MISSING)
     return CORPUS
+
+
+@pytest.fixture(scope="module")
+def install(tmp_path_factory: pytest.TempPathFactory) -> Generator[Install]:
+    """Put a distribution with these passes on the path, as pip would; all are gone at the end of the file."""
+    with pytest.MonkeyPatch.context() as patch:
+
+        def put(distribution: str, passes: Mapping[str, str]) -> None:
+            folder = tmp_path_factory.mktemp("site")
+            write_distribution(folder, distribution, passes)
+            patch.setattr("sys.path", [str(folder), *sys.path])
+            registered_passes.cache_clear()
+
+        yield put
+    registered_passes.cache_clear()
 
 
 def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.unit.passes.framework.conftest import write_distribution
+from tests.distributions import write_distribution
 
 pytestmark = pytest.mark.slow
 

@@ -12,9 +12,9 @@ from typing import NamedTuple
 import pytest
 
 from testbed import robots
+from tests.distributions import write_distribution
 from tests.hostile.injected import CACHE, FAULTS
 from tests.profile import DEEP
-from tests.unit.passes.framework.conftest import write_distribution
 
 _INJECTED = Path(__file__).with_name("injected.py")
 _EXAMPLES = Path(__file__).parents[2] / "examples"

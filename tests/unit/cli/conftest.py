@@ -36,3 +36,10 @@ def folder(tmp_path: Path) -> Path:
     for name, text in {"good": GOOD, "warned": WARNED, "wrong": WRONG, "broken": BROKEN}.items():
         (tmp_path / f"{name}.urdf").write_text(text)
     return tmp_path
+
+
+@pytest.fixture
+def here(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The folder with the files, as the current one."""
+    monkeypatch.chdir(folder)
+    return folder

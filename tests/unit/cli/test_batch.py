@@ -2,21 +2,19 @@
 
 import json
 import os
-import sys
 import time
 from collections import Counter
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, ClassVar
 
 import pytest
 
-from tests.unit.passes.framework.conftest import write_distribution
+from tests.distributions import Install
 from tests.write_files import write_files
 from twinform.compiler.batch.entries import outputs
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document
-from twinform.passes import Pass, registered_passes
+from twinform.passes import Pass
 
 from .conftest import BROKEN, GOOD, WARNED, WRONG, Run
 
@@ -41,14 +39,9 @@ class Chaos(Pass):
         return document
 
 
-@pytest.fixture
-def _chaos(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    site = tmp_path_factory.mktemp("site")
-    write_distribution(site, "stranger", {"chaos": f"{__name__}:Chaos"})
-    monkeypatch.setattr("sys.path", [str(site), *sys.path])
-    registered_passes.cache_clear()
-    yield
-    registered_passes.cache_clear()
+@pytest.fixture(scope="module")
+def _chaos(install: Install) -> None:
+    install("stranger", {"chaos": f"{__name__}:Chaos"})
 
 
 @pytest.fixture

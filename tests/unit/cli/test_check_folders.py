@@ -15,12 +15,6 @@ from twinform.installation import install_command
 from .conftest import GOOD, WARNED, WRONG, Run
 
 
-@pytest.fixture
-def here(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    monkeypatch.chdir(folder)
-    return folder
-
-
 def test_a_folder_is_checked_in_order_and_the_worst_file_decides(run: Run, here: Path) -> None:
     done = run("check", ".", "--format", "json")
     names = [row["path"] for row in json.loads(done.stdout)["files"]]

@@ -16,11 +16,10 @@ FILL = ["convert", "limitless.urdf", "--to", "urdf", "--passes", "@fill"]
 
 
 @pytest.fixture
-def here(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """The folder with the files, as the current one."""
-    (folder / "limitless.urdf").write_text(LIMITLESS)
-    monkeypatch.chdir(folder)
-    return folder
+def here(here: Path) -> Path:
+    """The folder with the files and one more, as the current one."""
+    (here / "limitless.urdf").write_text(LIMITLESS)
+    return here
 
 
 @pytest.mark.parametrize(

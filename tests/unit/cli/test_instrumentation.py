@@ -1,17 +1,15 @@
 """Looking over the shoulder of passes, and making their faults come again."""
 
 import json
-import sys
-from collections.abc import Iterator
 from pathlib import Path
 from typing import ClassVar
 
 import pytest
 
-from tests.unit.passes.framework.conftest import write_distribution
+from tests.distributions import Install
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document
-from twinform.passes import Pass, registered_passes
+from twinform.passes import Pass
 from twinform.passes.legalise.unwritten_masses import UrdfBodies
 
 from .conftest import GOOD, Run
@@ -51,22 +49,10 @@ class Homesick(Pass):
         return document
 
 
-@pytest.fixture(autouse=True)
-def _installed(tmp_path_factory: pytest.TempPathFactory, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    site = tmp_path_factory.mktemp("site")
+@pytest.fixture(autouse=True, scope="module")
+def _installed(install: Install) -> None:
     kinds = (Raising, Breaking, Homesick)
-    write_distribution(site, "stranger", {each.name: f"{__name__}:{each.__name__}" for each in kinds})
-    monkeypatch.setattr("sys.path", [str(site), *sys.path])
-    registered_passes.cache_clear()
-    yield
-    registered_passes.cache_clear()
-
-
-@pytest.fixture
-def here(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """The folder with the files, as the current one."""
-    monkeypatch.chdir(folder)
-    return folder
+    install("stranger", {each.name: f"{__name__}:{each.__name__}" for each in kinds})
 
 
 def test_each_pass_has_a_line_in_the_table(run: Run, here: Path) -> None:

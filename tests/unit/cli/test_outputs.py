@@ -12,16 +12,15 @@ WORLD = """<sdf version="1.11"><world name="w">
 
 
 @pytest.fixture
-def here(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def here(here: Path) -> Path:
     """The folder with the files, as the current one, and other names for one of them."""
-    monkeypatch.chdir(folder)
     Path("soft.sdf").symlink_to("good.urdf")
     Path("hard.sdf").hardlink_to("good.urdf")
     Path("sub").mkdir()
     Path("linked").symlink_to("sub")
     Path("w.sdf").write_text(WORLD)
     Path("twinform.toml").write_text("carriers = true\n")
-    return folder
+    return here
 
 
 def tree(folder: Path) -> dict[str, str]:

@@ -6,11 +6,10 @@ from typing import ClassVar
 
 import pytest
 
+from tests.distributions import Install, write_distribution
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document
 from twinform.passes import GROUP, Pass, RegistryError, UnknownPassError, collect, find_pass, registered_passes
-
-from .conftest import Install, write_distribution
 
 PROJECT = Path(__file__).parents[4] / "pyproject.toml"
 

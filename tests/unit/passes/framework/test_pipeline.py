@@ -7,6 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from pydantic import Field
 
+from tests.distributions import Install
 from twinform.diagnostics import DiagnosticSink, Rule, Severity
 from twinform.ir import Document, Format
 from twinform.passes import (
@@ -21,8 +22,6 @@ from twinform.passes import (
     UnknownPipelineError,
     parse_pipeline,
 )
-
-from .conftest import Install
 
 INVALID = Rule(name="invalid", severity=Severity.ERROR, finds="-", matters="-", example="-", better="-")
 

@@ -3,10 +3,10 @@ import tomllib
 import pytest
 from hypothesis import given, settings
 
+from tests.distributions import Install
 from twinform.passes import Pipeline, UnknownPipelineError, parse_pipeline
 from twinform.passes.framework.pipeline_text import TableError, parse_tables, print_tables, tables
 
-from .conftest import Install
 from .test_pipeline import PIPELINES
 from .test_pipeline import __name__ as samples
 
