@@ -35,6 +35,7 @@ from twinform.passes.legalise.to_mjcf.materials import look_of, with_known_mater
 from twinform.passes.legalise.to_mjcf.said_parts import without_elements
 from twinform.passes.legalise.to_mjcf.writing_context import Body, MjcfContext
 from twinform.passes.mesh_jobs.mesh_files import NoMeshError
+from twinform.passes.shared.nodes import reserve_name
 
 AnyPart = TypeVar("AnyPart", Visual, Collision)
 _SEEN, _TOUCHED = 2, 3
@@ -87,7 +88,31 @@ def geom_elements(context: MjcfContext, body: Body) -> list[Element]:
                 looks = [("material", material), *looks]
             more = [*_UNTOUCHED, *group, *weightless, *looks]
             found.append(_geom(context, body, visual, shape, more, seen=visual))
+    _name_what_is_read_otherwise(context, body, [each.get("name") or "" for each in found])
     return found
+
+
+def _name_what_is_read_otherwise(context: MjcfContext, body: Body, geoms: Sequence[str]) -> None:
+    """Let geoms without names have them where reading would make others: of several, one was taken out or moved."""
+    made = {
+        name: (_wish(body, part), part.name)
+        for part in (*body.link.visuals, *body.link.collisions)
+        if (name := context.written_geoms.get(id(part))) is not None and ("geom", name) in context.unnamed
+    }
+    order = [each for each in geoms if each in made]
+    misread: str | None = ""
+    while misread is not None:
+        taken, numbers = {each for each in geoms if each not in order}, dict[str, int]()
+        read = {each: reserve_name(made[each][0], taken, numbers) for each in order}
+        misread = next((each for each in order if read[each] != made[each][1]), None)
+        if misread is not None:
+            context.unnamed.discard(("geom", misread))
+            order.remove(misread)
+
+
+def _wish(body: Body, part: Visual | Collision) -> str:
+    """What the name of a geom without one is made of where it is read."""
+    return f"{body.link.name}_{part.__class__.__name__.lower()}"
 
 
 def _leave_as(context: MjcfContext, written: Collision, twin: Visual) -> None:
@@ -131,7 +156,7 @@ def _geom(
     name = context.name_in(body, "geom", source_name(part), part)
     if name is not None:
         context.written_geoms[id(part)] = name
-        context.note_made_name("geom", part, name, f"{body.link.name}_{part.__class__.__name__.lower()}")
+        context.note_made_name("geom", part, name, _wish(body, part))
     at = context.resolve(part.pose, body).compose(shape.at)
     attributes = [("name", name), *shape.attributes, *placement(at), *more]
     element = with_kept(make_element("geom", attributes, (), part.source), part)

@@ -47,7 +47,7 @@ from twinform.passes.carriers.mjcf_texts import (
     xml_data,
 )
 from twinform.passes.carriers.partial_nodes import REST, WRITTEN, Left, is_bare, remainder
-from twinform.passes.legalise.changed_names import fixed_joint_name
+from twinform.passes.legalise.changed_names import fixed_joint_name, source_name
 from twinform.passes.legalise.to_mjcf.contact_plan import MASKS
 from twinform.passes.legalise.to_mjcf.file_models import FileModels
 from twinform.passes.legalise.to_mjcf.friction import without_friction
@@ -189,9 +189,9 @@ class _Texts:
         return is_closing and joint.type in _OF_CONSTRAINTS and not (joint.axis or joint.sensors)
 
     def _is_needless(self, left: Node, node: Node) -> bool:
-        """Whether what is left of a node says nothing: names and notes alone that tell of no URI and no chain."""
+        """Whether what is left of a node says nothing: notes alone that tell of no name, no URI and no chain."""
         is_chain = isinstance(node, Joint) and node.type in CHAINS and node.type != "ball"
-        return is_bare(self._without_what_names(left, node)) and not (is_chain or _tells_of_uris(left))
+        return is_bare(self._without_what_names(left, node)) and not (is_chain or _tells_of_shapes(left))
 
     def _without_what_names(self, left: Node, node: Node) -> Node:
         """What is left of a node, without what a fixed joint is known by if it is read with the name that it has."""
@@ -231,9 +231,11 @@ class _Texts:
         if isinstance(node, Visual | Collision):
             look = self.spelling.look(node) if isinstance(node, Visual) and node.material is not None else ()
             notes = (*look, *(self.spelling.on_shape(node) if _has_uri(node) else ()))
-            if not notes:
+            geom = self.file.geom_name(node) or ""
+            is_unnamed = ("geom", geom) in self.context.unnamed
+            if not notes and (is_unnamed or geom in {"", source_name(node)}):
                 return ()
-            self.context.unnamed.discard(("geom", self.file.geom_name(node) or ""))
+            self.context.unnamed.discard(("geom", geom))
             written = [annotation(WRITTEN, attributes={"as": each}) for each in self.file.other_names(node)]
             return (*written, *notes)
         if isinstance(node, Joint) and (node.name in self.file.closing or node.type in CHAINS):
@@ -317,9 +319,13 @@ def _has_uri(shape: Visual | Collision) -> bool:
     return isinstance(found, Mesh) and "://" in (found.uri or "")
 
 
-def _tells_of_uris(left: Node) -> bool:
-    """Whether what is left of a node has a note of a file that is named otherwise than in MJCF."""
-    return any(find_annotation(each, SHAPE_OF) is not None for each in walk(left))
+def _tells_of_shapes(left: Node) -> bool:
+    """Whether what is left of a node has a note of a file, or of a shape, that is named otherwise than in MJCF."""
+    return any(
+        find_annotation(each, SHAPE_OF) is not None
+        or (isinstance(each, Visual | Collision) and find_annotation(each, WRITTEN) is not None)
+        for each in walk(left)
+    )
 
 
 def _own_name(name: str) -> str:
