@@ -31,6 +31,7 @@ from twinform.passes.legalise.to_mjcf.contacts import touch_of
 from twinform.passes.legalise.to_mjcf.elements import ENDLESS, GRID, Attributes, Value, make_element, placement
 from twinform.passes.legalise.to_mjcf.fitted_geoms import fitted_mesh, geom_size, without_mesh
 from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements, with_kept
+from twinform.passes.legalise.to_mjcf.looks import has_look
 from twinform.passes.legalise.to_mjcf.materials import look_of, with_known_material
 from twinform.passes.legalise.to_mjcf.said_parts import without_elements
 from twinform.passes.legalise.to_mjcf.writing_context import Body, MjcfContext
@@ -162,9 +163,8 @@ def _geom(
     element = with_kept(make_element("geom", attributes, (), part.source), part)
     if any(key == "size" for key, _ in shape.attributes):
         element = without_mesh(element)
-    if (
-        context.is_of_mjcf and seen is not None and seen.material is None
-    ):  # it was deleted: what is read of MJCF has the colors of its geom
+    if context.is_of_mjcf and seen is not None and not has_look(seen):
+        # It was deleted: what is read of MJCF has the colors of its geom.
         return element.copy(attributes=tuple(pair for pair in element.attributes if pair[0] not in _COLORS))
     return with_known_material(context, element)
 

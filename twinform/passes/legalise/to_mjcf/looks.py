@@ -35,6 +35,11 @@ class Look(NamedTuple):
     images: tuple[tuple[str, str], ...]
 
 
+def has_look(visual: Visual) -> bool:
+    """Whether a visual says how it looks; an empty material says nothing."""
+    return visual.material is not None and visual.material != Material.unchecked()
+
+
 def look(visual: Visual) -> Look:
     """The look of a visual; of a script of Gazebo Classic there is none."""
     material = visual.material

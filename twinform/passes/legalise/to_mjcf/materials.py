@@ -8,12 +8,14 @@ from twinform.ir.geometry import Mesh
 from twinform.passes.legalise.to_mjcf.assets import file_path, find_file
 from twinform.passes.legalise.to_mjcf.elements import Value, attribute_text, make_element
 from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements
-from twinform.passes.legalise.to_mjcf.looks import Look, look
+from twinform.passes.legalise.to_mjcf.looks import Look, has_look, look
 from twinform.passes.legalise.to_mjcf.mesh_colors import Several, color_of
 from twinform.passes.legalise.to_mjcf.writing_context import Body, MjcfContext
 
 _IMAGES = frozenset({".png", ".ktx"})
 """The images that MuJoCo reads."""
+_OF_COLORS = frozenset({"rgb", "rgba"})
+"""The roles of images with the colors of a material."""
 
 
 def with_known_material(context: MjcfContext, element: Element) -> Element:
@@ -31,12 +33,38 @@ def look_of(context: MjcfContext, body: Body, visual: Visual, twin: Collision | 
     """
     found = look(visual)
     kept = next((each for each in kept_elements(twin or visual) if each.name == "geom" and each.get("material")), None)
-    if kept is not None:
-        return _of_kept_material(context, kept.get("material") or "", found, has_own=kept.get("rgba") is not None)
+    if kept is not None and not has_look(visual):
+        return []
+    name = (kept.get("material") if kept is not None else None) or ""
+    if kept is not None and _has_image(context, name, found):
+        return _of_kept_material(context, name, visual, found, has_own=kept.get("rgba") is not None)
     textures = _textures(context, visual, found)
+    if kept is not None:
+        return [("material", _material(context, body, visual, _as_shiny(found), textures))]
     if not found.material and not textures:
         return [("rgba", found.rgba or _color_of_file(context, visual))]
     return [("material", _material(context, body, visual, found, textures))]
+
+
+def _has_image(context: MjcfContext, name: str, found: Look) -> bool:
+    """Whether a material has the image of a look, which was edited otherwise.
+
+    It is the image that it was read with, if the model keeps it, or else that of the first visual with this material.
+    """
+    image = next((uri for role, uri in found.images if role == "rgb"), "")
+    material = context.kept_asset("material", name)
+    if material is None:
+        return context.files.setdefault(("kept image", name), image) == image
+    layer = next((each for each in material.children if each.get("role") in _OF_COLORS), material)
+    texture = context.kept_asset("texture", layer.get("texture") or "")
+    is_plain = texture is not None and texture.get("type") in {"2d", None}
+    return image == ((texture.get("file") if texture is not None and is_plain else None) or "")
+
+
+def _as_shiny(found: Look) -> Look:
+    """A look that says how it shines: without a word MuJoCo's materials do, and those of SDF do not."""
+    is_said = any(key == "specular" for key, _ in found.material)
+    return found if is_said else found._replace(material=(*found.material, ("specular", 0.0)))
 
 
 def _color_of_file(context: MjcfContext, visual: Visual) -> tuple[float, ...] | None:
@@ -57,19 +85,20 @@ def _color_of_file(context: MjcfContext, visual: Visual) -> tuple[float, ...] | 
     return color
 
 
-def _of_kept_material(context: MjcfContext, name: str, found: Look, *, has_own: bool) -> list[tuple[str, Value]]:
+def _of_kept_material(
+    context: MjcfContext, name: str, visual: Visual, found: Look, *, has_own: bool
+) -> list[tuple[str, Value]]:
     """The color of a geom that keeps the material which it was read with, where it has not that of the material.
 
     The asset gets what visuals say of it, but for the color of a geom that had its own; what else it had is added where
-    models keep it.
+    models keep it, with its images.
     """
     key, assets = ("kept material", name), context.sections["asset"]
     if key not in context.files:
         context.names.setdefault("material", set()).add(name)
+        images = _textures(context, visual, found) if context.kept_asset("material", name) is None else []
         context.files[key] = str(len(assets))
-        # Without a word MuJoCo shines, and SDF does not.
-        shine = [] if any(key == "specular" for key, _ in found.material) else [("specular", 0.0)]
-        context.add("asset", make_element("material", [("name", name), *found.material, *shine]))
+        context.add("asset", _asset([("name", name), *_as_shiny(found).material], images))
     if has_own:
         return [("rgba", found.rgba)]
     color = ("kept color", name)
@@ -89,14 +118,18 @@ def _material(
     key = ("material", found.rgba, found.material, tuple(textures))
     if key not in context.files:
         name = context.name_in(body, "material", visual.name or "material", visual.location)
-        attributes: list[tuple[str, Value]] = [("name", name), ("rgba", found.rgba), *found.material]
-        layers = [make_element("layer", [("role", role), ("texture", texture)]) for role, texture in textures]
-        if len(textures) == 1 and textures[0][0] == "rgb":
-            attributes.append(("texture", textures[0][1]))
-            layers = []
-        context.add("asset", make_element("material", attributes, layers, visual.source))
+        asset = _asset([("name", name), ("rgba", found.rgba), *found.material], textures)
+        context.add("asset", asset.copy(source=visual.source))
         context.files[key] = name
     return context.files[key]
+
+
+def _asset(attributes: list[tuple[str, Value]], textures: list[tuple[str, str]]) -> Element:
+    """A material with its textures: one of colors alone is an attribute, and all others are layers."""
+    if len(textures) == 1 and textures[0][0] == "rgb":
+        return make_element("material", [*attributes, ("texture", textures[0][1])])
+    layers = [make_element("layer", [("role", role), ("texture", texture)]) for role, texture in textures]
+    return make_element("material", attributes, layers)
 
 
 def _textures(context: MjcfContext, visual: Visual, found: Look) -> list[tuple[str, str]]:
