@@ -136,10 +136,14 @@ class _Texts:
                     left = map_references(left, self._name_in_file)
                     names = [other for other in self.file.other_names(each) if other != WORLD]
                     name = names[0] if len(names) == 1 else each.name
-                    # Of these joints the file has no name, or several.
-                    is_named = not isinstance(each, Joint) or self.context.written_joints.get(each.name)
-                    own = name if is_named and len(names) <= 1 else _own_name(each.name)
+                    own = name if self._is_named(each) and len(names) <= 1 else _own_name(each.name)
                     self._add_text(kind, name, left.copy(name=own), each)
+
+    def _is_named(self, part: Link | Joint) -> bool:
+        """Whether a body or joint of the file has the name of a part: none has that of the world's own shapes."""
+        if isinstance(part, Joint):
+            return bool(self.context.written_joints.get(part.name))
+        return self.context.written_bodies.get(part.name) != WORLD
 
     def _add_world(self, world: World, models: FileModels) -> None:
         """Add a text for what stands in a world itself, such as plugins, and for one that is read as a model."""
