@@ -1,0 +1,292 @@
+"""Carriers of what edits of SDF or URDF have added to a document of MJCF: plugins, springs of contacts, looks.
+
+Links and joints go by the names of their bodies and joints, which a reader of the file sees too. Most need no text.
+"""
+
+from collections.abc import Iterable
+
+from twinform.ir import (
+    Collision,
+    Element,
+    Joint,
+    Light,
+    Link,
+    Material,
+    Mesh,
+    Node,
+    Opaque,
+    Sensor,
+    Visual,
+    World,
+    map_references,
+    walk,
+)
+from twinform.ir.frames import MODEL, WORLD
+from twinform.ir.scopes import SCOPE
+from twinform.passes.carriers.annotations import (
+    MADE_NAME,
+    annotation,
+    find_annotation,
+    is_synthesized,
+)
+from twinform.passes.carriers.carriers import is_ours, without_parts
+from twinform.passes.carriers.joint_chains import CHAINS
+from twinform.passes.carriers.mjcf_texts import (
+    LOOP,
+    SHAPE_OF,
+)
+from twinform.passes.carriers.partial_nodes import WRITTEN, Left, is_bare, remainder
+from twinform.passes.legalise.changed_names import fixed_joint_name, source_name
+from twinform.passes.legalise.to_mjcf.contact_plan import MASKS
+from twinform.passes.legalise.to_mjcf.file_models import FileModels
+from twinform.passes.legalise.to_mjcf.friction import without_friction
+from twinform.passes.legalise.to_mjcf.inertials import weight_of
+from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements
+from twinform.passes.legalise.to_mjcf.lights import unread_light
+from twinform.passes.legalise.to_mjcf.looks import is_seen
+from twinform.passes.legalise.to_mjcf.model_texts import holder_partials, is_of_mjcf
+from twinform.passes.legalise.to_mjcf.options import SETTINGS, has_usual_settings
+from twinform.passes.legalise.to_mjcf.said_parts import without_elements
+from twinform.passes.legalise.to_mjcf.text_list import TextList
+
+_MASKS = frozenset(f"contact/{each}" for each in MASKS)
+_OF_CONSTRAINTS = frozenset({"ball", "fixed"})
+"""The types of joints that constraints are read as."""
+
+
+class AddedTexts(TextList):
+    """Adds the texts of one document that was read of MJCF."""
+
+    def add(self) -> None:
+        """Add texts for what was added to a document of MJCF while it was SDF or URDF: plugins, springs of contacts."""
+        model, hidden = self.file.flat, self.file.hidden
+        are_bits_usual = self.context.contacts.are_usual  # a file with no others has no masks
+        links = [
+            self._without_seen(_as_mjcf_has_link(each, has_masks=not are_bits_usual))
+            for each in model.links
+            if each.name not in hidden
+        ]
+        joints = [each.copy(child=None) if each.child in hidden else each for each in model.joints]
+        joints = [_as_mjcf_has_it(each) for each in joints if not self._is_constraint(each)]
+        models = FileModels(self.context)
+        for part in holder_partials(self.context, self.file, models):
+            self.add_text(*part)
+        if isinstance(self.context.holder, World):
+            self._add_world(self.context.holder, models)
+        for kind, parts in (("link", links), ("joint", joints)):
+            for each in filter(lambda part: models.has_part(part.name), parts):
+                self.file.part = each
+                left = remainder(_without_what_file_has(each), self._said_beside, self._notes_beside)
+                if left is not None and self._is_needless(left, each):
+                    left = None
+                if left is not None:
+                    left = map_references(left, self._name_in_file)
+                    names = [other for other in self.file.other_names(each) if other != WORLD]
+                    name = names[0] if len(names) == 1 else each.name
+                    own = name if self._is_named(each) and len(names) <= 1 else _own_name(each.name)
+                    self.add_text(kind, name, left.copy(name=own), each)
+
+    def _is_named(self, part: Link | Joint) -> bool:
+        """Whether a body or joint of the file has the name of a part: none has that of the world's own shapes."""
+        if isinstance(part, Joint):
+            return bool(self.context.written_joints.get(part.name))
+        return self.context.written_bodies.get(part.name) != WORLD
+
+    def _add_world(self, world: World, models: FileModels) -> None:
+        """Add a text for what stands in a world itself, such as plugins, and for one that is read as a model."""
+        told = without_parts(world.copy(models=(), joints=(), frames=(), gravity=None), is_of_mjcf)
+        lights = tuple(left for each in world.lights if (left := unread_light(each)) is not None)
+        told, notes = told.copy(lights=lights), ()
+        if has_usual_settings(self.context):
+            told = without_elements(told, SETTINGS)
+        else:
+            told, notes = told.copy(gravity=world.gravity), tuple(self.spelling.on_world(world))
+        left = remainder(told, self._said_beside, self._notes_beside)
+        if left is None and not notes and models.is_world:
+            return
+        left = left or World.unchecked(name=world.name)
+        self.add_text("world", "", left.copy(opaque=(*notes, *left.opaque)), world)
+
+    def _is_named_by_file(self, joint: Joint) -> bool:
+        """Whether a fixed joint, which has no name in MJCF, is called as it is when the file is read."""
+        body = self._body_of(joint.child)
+        # Where several would be called so, a number stands behind it. The link may have another name by now.
+        made = find_annotation(joint, MADE_NAME)
+        is_made = made is not None and made.text == _own_name(joint.name)
+        is_made = is_made and joint.name.startswith(fixed_joint_name(joint.child or ""))
+        return is_made or is_synthesized(joint) or _own_name(joint.name) == fixed_joint_name(body or "")
+
+    def _name_in_file(self, kind: str, name: str) -> str:
+        """The name that a part goes by in the file, where no scope stands before it."""
+        context = self.context
+        if name in {WORLD, MODEL}:
+            return name
+        if kind != "joint" and (body := context.written_bodies.get(name)):
+            return _own_name(name) if body == WORLD else body
+        if joints := context.written_joints.get(name):
+            return joints[-1]
+        if site := context.written_sites.get(name):
+            return site
+        is_model = isinstance(context.holder, World) and any(each.name == name for each in context.holder.models)
+        return MODEL if is_model else _own_name(name)
+
+    def _body_of(self, link: str | None) -> str | None:
+        """The name of the body of a link, by which a joint without a name of its own is known."""
+        return self.context.written_bodies.get(link or "", link)
+
+    def _is_constraint(self, joint: Joint) -> bool:
+        """Whether a joint is a constraint in MJCF, and is the joint that such a constraint is read as."""
+        is_closing = joint.name in self.file.closing
+        return is_closing and joint.type in _OF_CONSTRAINTS and not (joint.axis or joint.sensors)
+
+    def _is_needless(self, left: Node, node: Node) -> bool:
+        """Whether what is left of a node says nothing: notes alone that tell of no name, no URI and no chain."""
+        is_chain = isinstance(node, Joint) and node.type in CHAINS and node.type != "ball"
+        return is_bare(self._without_what_names(left, node)) and not (is_chain or _tells_of_shapes(left))
+
+    def _without_what_names(self, left: Node, node: Node) -> Node:
+        """What is left of a node, without what a fixed joint is known by if it is read with the name that it has."""
+        if (
+            isinstance(left, Joint)
+            and isinstance(node, Joint)
+            and node.type == "fixed"
+            and self._is_named_by_file(node)
+        ):
+            return left.copy(parent=None, child=None, pose=None)
+        return left
+
+    def _without_seen(self, link: Link) -> Link:
+        """A link whose visuals have no material that the file shows as it is."""
+        self.file.part = link
+        if self.file.flat.self_collide == link.self_collide or self.context.models[1:]:  # flattening gives it to links
+            link = link.copy(self_collide=None)
+
+        def unseen(visual: Visual) -> Visual:
+            geom = self.file.geom(visual)
+            if visual.material is None or geom is None:
+                return visual
+            asset = self.file.asset_element("material", geom.get("material"))
+            bare = without_parts(visual.material, is_ours)
+            return visual.copy(material=None) if is_seen(bare, geom, asset) else visual
+
+        return link.copy(visuals=tuple(map(unseen, link.visuals)))
+
+    def _said_beside(self, node: Node) -> frozenset[str] | Left | None:
+        """What the file says of a node that was read of MJCF; a material that it does not show is taken whole."""
+        if isinstance(node, Material):
+            return None
+        return self.said(node)
+
+    def _notes_beside(self, node: Node) -> tuple[Opaque, ...]:
+        """What tells that a material, sensor or URI is as it was written; its part keeps its name in the file then."""
+        if isinstance(node, Visual | Collision):
+            look = self.spelling.look(node) if isinstance(node, Visual) and node.material is not None else ()
+            notes = (*look, *(self.spelling.on_shape(node) if _has_uri(node) else ()))
+            geom = self.file.geom_name(node) or ""
+            is_unnamed = ("geom", geom) in self.context.unnamed
+            if not notes and (is_unnamed or geom in {"", source_name(node)}):
+                return ()
+            self.context.unnamed.discard(("geom", geom))
+            written = [annotation(WRITTEN, attributes={"as": each}) for each in self.file.other_names(node)]
+            return (*written, *notes)
+        if isinstance(node, Joint) and (node.name in self.file.closing or node.type in CHAINS):
+            return tuple(self._notes_of_several(node))
+        if isinstance(node, Light) or (isinstance(node, Sensor) and self.what.left_of(node) is not None):
+            parts = self.file.parts_of(node)
+            self.context.unnamed.difference_update((each.name, each.get("name") or "") for each in parts)
+            return tuple(self.spelling.parts(node))
+        return ()
+
+    def _notes_of_several(self, joint: Joint) -> Iterable[Opaque]:
+        """The names of the joints or constraints that stand for a joint, and that it closes a loop."""
+        names = self.file.other_names(joint)
+        if joint.name in self.file.closing:
+            yield annotation(LOOP)
+            self.context.unnamed.difference_update((tag, each) for tag in ("connect", "weld") for each in names)
+        yield from (annotation(WRITTEN, attributes={"as": each}) for each in names)
+
+
+def _has_uri(shape: Visual | Collision) -> bool:
+    """Whether a shape names its file by a scheme, such as `model://`, where MJCF has nothing but paths."""
+    found = shape.geometry.shape if shape.geometry else None
+    return isinstance(found, Mesh) and "://" in (found.uri or "")
+
+
+def _tells_of_shapes(left: Node) -> bool:
+    """Whether what is left of a node has a note of a file, or of a shape, that is named otherwise than in MJCF."""
+    return any(
+        find_annotation(each, SHAPE_OF) is not None
+        or (isinstance(each, Visual | Collision) and find_annotation(each, WRITTEN) is not None)
+        for each in walk(left)
+    )
+
+
+def _own_name(name: str) -> str:
+    """The name of a part in its model."""
+    return name.rpartition(SCOPE)[2]
+
+
+def _without_what_file_has(part: Link | Joint) -> Link | Joint:
+    """A part without what only MJCF says of it; a light comes back as a whole, and keeps that."""
+    bare = without_parts(part, is_of_mjcf)
+    return bare.copy(lights=part.lights) if isinstance(part, Link) and part.lights else bare
+
+
+def _as_mjcf_has_link(link: Link, *, has_masks: bool) -> Link:
+    """A link without what geoms and bodies say of it, and what sensors are read with."""
+    return link.copy(
+        collisions=tuple(_as_mjcf_has_collision(each, has_masks=has_masks) for each in link.collisions),
+        sensors=_unread_sensors(link.sensors),
+        lights=tuple(left for each in link.lights if (left := unread_light(each)) is not None),
+        inertial=None if weight_of(link).is_nothing else link.inertial,
+        kinematic=None if _is_mocap(link) else link.kinematic,
+        gravity=None if link.gravity is False else link.gravity,
+    )
+
+
+def _as_mjcf_has_collision(collision: Collision, *, has_masks: bool) -> Collision:
+    """A collision without friction but for a second coefficient, or masks if the bits of its geom have them."""
+    surface = collision.surface
+    if surface is None or collision.geometry is None or collision.geometry.shape is None:  # no geom stands for it
+        return collision
+    surface = without_friction(without_elements(surface, _MASKS) if has_masks else surface)
+    return collision.copy(surface=surface.copy(mu2=None) if surface.mu2 == surface.mu else surface)
+
+
+def _as_mjcf_has_it(joint: Joint) -> Joint:
+    """A joint without sensors, and without the axis of a ball, which is there for its damping alone."""
+    axis = joint.axis.copy(xyz=None) if joint.axis and joint.type == "ball" else joint.axis
+    return joint.copy(sensors=_unread_sensors(joint.sensors), axis=axis)
+
+
+def _unread_sensors(sensors: Iterable[Sensor]) -> tuple[Sensor, ...]:
+    """The sensors of which a file of MJCF leaves something unsaid."""
+    return tuple(left for each in sensors if (left := _unread(each)) is not None)
+
+
+def _unread(sensor: Sensor) -> Sensor | None:
+    """What a file of MJCF leaves unsaid of a sensor, without a type where readings stand for it; None for nothing."""
+    has_readings = any(each.name == "sensor" for each in kept_elements(sensor))
+    opaque = tuple(part for part in sensor.opaque if not (is_of_mjcf(part) or _is_read(part.element, has_readings)))
+    bare = sensor.copy(type=None, pose=None, opaque=opaque)
+    if (has_readings or sensor.type == "camera") and bare == Sensor.unchecked(name=sensor.name):
+        return None
+    return bare if has_readings else sensor
+
+
+def _is_read(element: Element | None, has_readings: bool) -> bool:
+    """Whether parameters of a sensor are those that sensors of MJCF are read with."""
+    if element is None:
+        return False
+    if has_readings:
+        return element.name in _PARAMETERS
+    return element.name == "camera" and {each.name for each in element.walk()} <= _OF_CAMERAS
+
+
+_PARAMETERS = frozenset({"contact", "lidar", "force_torque"})
+_OF_CAMERAS = frozenset({"camera", "horizontal_fov", "image", "width", "height"})
+
+
+def _is_mocap(link: Link) -> bool:
+    """Whether a link keeps that only a program moves it."""
+    return any(each.name == "body" and each.get("mocap") == "true" for each in kept_elements(link))
