@@ -15,7 +15,6 @@ from twinform.diagnostics import DiagnosticSink, Fate, Location, Rule, rules
 from twinform.ir import (
     Document,
     Element,
-    Format,
     Frame,
     Link,
     Model,
@@ -29,7 +28,7 @@ from twinform.ir.kinematic_tree import JointBetween, KinematicTree
 from twinform.ir.record import Sourced
 from twinform.ir.scopes import SCOPE, scoped_models
 from twinform.ir.transform import Transform
-from twinform.passes.carriers.annotations import MADE_NAME, came_from, find_annotation
+from twinform.passes.carriers.annotations import MADE_NAME, find_annotation
 from twinform.passes.carriers.carriers import Keeper
 from twinform.passes.framework.assets import NO_ASSETS, Assets
 from twinform.passes.legalise.to_mjcf.contact_plan import ContactPlan
@@ -72,7 +71,7 @@ class MjcfContext:
         holder: the model or world of it that is written.
         sink: for findings and the ledger.
         keeper: for what MJCF cannot say: carried, or dropped where no carriers are asked for.
-        source_version: the version of SDF that the source had; None for the newest.
+        source_version: the version of SDF that the source had; None for URDF.
         mixed: whether the source has syntax of newer versions of SDF.
         assets: leads to the files that the document names.
         replacer: makes meshes that stand for shapes which MJCF lacks.
@@ -142,7 +141,7 @@ class MjcfContext:
         if not static:
             return frozenset()
         found = (name for name in self.tree.links if name.startswith(static))
-        is_urdf = isinstance(self.holder, Model) and came_from(self.holder, Format.URDF)
+        is_urdf = self.source_version is None
         return frozenset(name for name in found if not (is_urdf and self.is_of_mjcf and self._is_moved(name)))
 
     def _is_moved(self, link: str) -> bool:
