@@ -14,6 +14,8 @@ WITHOUT_AXIS = frozenset({"fixed", "ball", "spherical", "floating"})
 """Types of joints whose `<axis>` means nothing."""
 WITH_TWO_AXES = frozenset({"universal", "revolute2", "gearbox"})
 """Types of joints that turn about a second axis too."""
+_ALONG = 1e-12
+"""So close to -1 a cosine is that of the opposite direction."""
 
 
 class JointEnds(Protocol):
@@ -109,17 +111,16 @@ def unit(vector: Vector3) -> Vector3:
 
 
 def plane_across(normal: Vector3) -> tuple[Vector3, Vector3]:
-    """Return two unit vectors that make a right-handed frame with a normal; x and y if it is z."""
+    """Return two unit vectors that make a right-handed frame with a normal: x and y after the shortest turn of z to it.
+
+    URDF leaves open where they are. Drake and MuJoCo have them so.
+    """
     length = math.hypot(*normal)
-    nx, ny, nz = (part / length for part in normal)
-    smallest = min(range(3), key=lambda i: abs((nx, ny, nz)[i]))
-    axis = [0.0, 0.0, 0.0]
-    axis[smallest] = 1.0
-    share = (nx, ny, nz)[smallest]
-    ux, uy, uz = (axis[0] - share * nx, axis[1] - share * ny, axis[2] - share * nz)
-    length = math.hypot(ux, uy, uz)
-    ux, uy, uz = ux / length + 0.0, uy / length + 0.0, uz / length + 0.0
-    return (ux, uy, uz), (ny * uz - nz * uy + 0.0, nz * ux - nx * uz + 0.0, nx * uy - ny * ux + 0.0)
+    x, y, z = (part / length for part in normal)
+    if 1.0 + z < _ALONG:  # every half turn about an axis in the plane is as short
+        return (1.0, 0.0, 0.0), (0.0, -1.0, 0.0)
+    both = -x * y / (1.0 + z) + 0.0
+    return (1.0 - x * x / (1.0 + z), both, -x + 0.0), (both, 1.0 - y * y / (1.0 + z), -y + 0.0)
 
 
 def _times(vector: Vector3, factor: float) -> Vector3:
