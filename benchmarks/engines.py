@@ -94,7 +94,7 @@ def _python(name: str) -> Sequence[str]:
     return (sys.executable, "-m", "benchmarks.worker", name, str(LEAST))
 
 
-def _own(name: str) -> Engine:
+def _own_engine(name: str) -> Engine:
     return Engine(name, partial(_python, name))
 
 
@@ -129,7 +129,7 @@ def _packaged(package: str) -> str:
     return done.stdout.strip()
 
 
-FLOOR, LOAD, TO_SDF, TO_URDF, TO_MJCF = map(_own, ("floor", "load", "to SDF", "to URDF", "to MJCF"))
+FLOOR, LOAD, TO_SDF, TO_URDF, TO_MJCF = map(_own_engine, ("floor", "load", "to SDF", "to URDF", "to MJCF"))
 LIBSDFORMAT = _program("libsdformat", _LIBSDFORMAT)
 LIBSDFORMAT_ONCE = _program("libsdformat, its description read before", _LIBSDFORMAT, "--once")
 READERS = (

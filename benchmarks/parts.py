@@ -38,23 +38,23 @@ QUICK = Extent((10, 100, 1_000), (1_000,), (10, 100), (1_000, 10_000), 3, 3, 5, 
 def measured_parts(extent: Extent, before: Path | None, others: Path | None) -> Iterator[Part]:
     """Each part of the page, once it is measured; an older checkout and a folder of other robots may be given."""
     trees, chains = ([generated(shape, links) for links in some] for shape, some in _shapes(extent))
-    yield _said(sizes.measure([*trees, *chains, *inputs.known()], extent.rounds))
-    yield _said(mjcf.measure([robot for robot in trees if robot.links in mjcf.SIZES], extent.rounds))
+    yield _announce(sizes.measure([*trees, *chains, *inputs.known()], extent.rounds))
+    yield _announce(mjcf.measure([robot for robot in trees if robot.links in mjcf.SIZES], extent.rounds))
     corpus = [Robot(file.name, file.path, 0) for file in inputs.corpus(extent.every, Kind.URDF)]
     made = [generated(shape, links) for shape in ("tree", "chain") for links in extent.converted]
-    yield _said(converters.measure(corpus, inputs.robots_in(others), made, extent.corpus_rounds))
-    yield _said(comments.measure([robot.path for robot in corpus], extent.corpus_rounds))
-    yield _said(real_files.measure(before, extent.every, extent.corpus_rounds))
-    yield _said(_commands(extent.runs))
-    yield _said(scale.measure(extent.scale))
-    yield _said(Part(stages.page(_profiles(extent.every))))
+    yield _announce(converters.measure(corpus, inputs.robots_in(others), made, extent.corpus_rounds))
+    yield _announce(comments.measure([robot.path for robot in corpus], extent.corpus_rounds))
+    yield _announce(real_files.measure(before, extent.every, extent.corpus_rounds))
+    yield _announce(_commands(extent.runs))
+    yield _announce(scale.measure(extent.scale))
+    yield _announce(Part(stages.page(_profiles(extent.every))))
 
 
 def _shapes(extent: Extent) -> Sequence[tuple[str, Sequence[int]]]:
     return ("tree", extent.trees), ("chain", extent.chains)
 
 
-def _said(part: Part) -> Part:
+def _announce(part: Part) -> Part:
     print(part.section.partition("\n")[0], "is measured", file=sys.stderr, flush=True)
     return part
 

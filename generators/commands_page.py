@@ -38,12 +38,12 @@ def _chapter(name: str, command: click.Command) -> str:
     options = "\n".join(f"| `{_cell(names)}` | {_cell(text)} |" for names, text in filter(None, records) if text)
     shown = command.examples.items() if isinstance(command, Command) else ()
     examples = "\n".join(f"{what}:\n\n```sh\n{typed}\n```\n" for what, typed in shown)
-    about = "\n\n".join(_plain(part) for part in (command.help or "").split("\n\n"))
+    about = "\n\n".join(_escape_paragraph(part) for part in (command.help or "").split("\n\n"))
     listed = f"| option | what it does |\n| --- | --- |\n{options}"
     return f"## {name}\n\n```text\n{usage}\n```\n\n{about}\n\n{listed}\n\n{examples}"
 
 
-def _plain(text: str) -> str:
+def _escape_paragraph(text: str) -> str:
     """Write a paragraph in one line, and escape Markdown and HTML."""
     words = " ".join(text.replace("\b", "").split())
     return words.replace("<", "&lt;").replace("*", "\\*").replace("_", "\\_")

@@ -177,13 +177,13 @@ class _WriterGenerator:
         code += self._kinds([row for row in rows if row.kind], part.path)
         code += self._all_in_order([row for row in rows if makes_many(row)], part.path)
         if part.fact.type != "pose":
-            return code + _unusual(part, _written(code)) + _end(code, part.tag, keep=part.keep)
+            return code + _unusual(part, _written(code)) + _end_of_function(code, part.tag, keep=part.keep)
         end = _END_OF_TEXT.substitute(tag=part.tag, text="body", shown="{body}")
         return code + _POSE + _unusual(part, [*_written(code), "body"]) + end
 
     def _code_of_container(self, row: Fact, path: str) -> str:
         code = "".join([self._row(inner, path) for inner in self._rows(row.rows)])
-        return code + _end(code, row.name, keep=False)
+        return code + _end_of_function(code, row.name, keep=False)
 
     def _code_of_leaf(self, row: Fact) -> str:
         code = "".join([self._row(inner, "") for inner in self._rows(row.attributes)])
@@ -304,6 +304,6 @@ def _unusual(part: _WriterFunction, written: Iterable[str]) -> str:
     return _UNUSUAL.substitute(condition=condition, arguments=", ".join(arguments))
 
 
-def _end(code: str, tag: str, *, keep: bool) -> str:
+def _end_of_function(code: str, tag: str, *, keep: bool) -> str:
     """The end of a function."""
     return _END[" ".join([*_written(code), *["keep"] * keep])].substitute(tag=tag)

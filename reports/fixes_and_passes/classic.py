@@ -116,10 +116,10 @@ def judge(file: CorpusFile) -> Outcome | None:
     checked = twinform.check(file.path, paths=file.paths)
     if checked.document is None or not checked.accepted:
         return _one_by_one(file, found, ", ".join(rules_of(checked.diagnostics)))
-    return _whole(file, found, str(checked.document.format))
+    return _judge_whole_file(file, found, str(checked.document.format))
 
 
-def _whole(file: CorpusFile, found: list[Block], language: str) -> Outcome:
+def _judge_whole_file(file: CorpusFile, found: list[Block], language: str) -> Outcome:
     outcome = Outcome(file.name, whole=True)
     conversion = twinform.convert(
         file.path, to="urdf" if language == "urdf" else "sdf", passes=PIPELINE, paths=file.paths

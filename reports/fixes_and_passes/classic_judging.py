@@ -33,7 +33,7 @@ def judged(files: Iterable[CorpusFile]) -> list[Judged]:
         pairs = dict(_written(files, Path(folder)))
         verdicts = judge(path for pair in pairs.values() for path in pair)
         return [
-            Judged(name, verdicts[old].ok, verdicts[new].ok, _new(verdicts[old].errors, verdicts[new].errors))
+            Judged(name, verdicts[old].ok, verdicts[new].ok, _new_errors(verdicts[old].errors, verdicts[new].errors))
             for name, (old, new) in pairs.items()
         ]
 
@@ -51,7 +51,7 @@ def _written(files: Iterable[CorpusFile], folder: Path) -> Iterator[tuple[str, t
         yield file.name, (paths[0].resolve(), paths[1].resolve())
 
 
-def _new(before: tuple[str, ...], after: tuple[str, ...]) -> tuple[str, ...]:
+def _new_errors(before: tuple[str, ...], after: tuple[str, ...]) -> tuple[str, ...]:
     """Errors of a kind that the source does not have."""
     known = {error.partition(":")[0] for error in before}
     return tuple(error for error in after if error.partition(":")[0] not in known)

@@ -84,7 +84,7 @@ class _Trial:
         changes = of_ledger(made.ledger.entries)
         passes = tuple(sorted({change.step for change in changes}))
         try:
-            verdict, cause = self._asked(made, changes, to)
+            verdict, cause = self._ask_once(made, changes, to)
         except NotApplicableError as error:
             verdict, cause = Verdict.DIFFERENT, f"the ledger: {error}"
         except twinform.CompileError as error:
@@ -104,7 +104,7 @@ class _Trial:
         found = assessed(self.plain[to, version], LoadOptions(profiles=profiles), self.file.name)
         return bool(remedies(found, Format(to))) or any(each.verdict is Taken.REFUSES for each in found)
 
-    def _asked(self, made: Conversion, changes: tuple[PhysicsChange, ...], to: Language) -> tuple[Verdict, str]:
+    def _ask_once(self, made: Conversion, changes: tuple[PhysicsChange, ...], to: Language) -> tuple[Verdict, str]:
         links = reshaped(changes)
         texts = _shapeless(self._described(changes, made, to), links), _shapeless(made.text, links)
         if texts not in self.told:

@@ -191,7 +191,7 @@ def _edits(model: Model, count: int, random: Random) -> Iterator[Tried]:
     for _ in range(count):
         edits, text = draw_edits(model.before.text, random)
         _, tried = _edited(model, edits, text)
-        yield _kept(model, text, tried, random)
+        yield _keep_files(model, text, tried, random)
 
 
 def _edited(model: Model, edits: tuple[Edit, ...], text: bytes) -> tuple[bytes, Tried]:
@@ -205,7 +205,7 @@ def _edited(model: Model, edits: tuple[Edit, ...], text: bytes) -> tuple[bytes, 
 def _trips(model: Model, random: Random) -> Iterator[Tried]:
     """Trips in a row, with edits before each one."""
     for here, text, tried in _traveled(model, [partial(draw_edits, random=random)] * TRIPS):
-        yield _kept(here, text, tried, random)
+        yield _keep_files(here, text, tried, random)
 
 
 def _traveled(model: Model, draws: list[Draw]) -> Iterator[tuple[Model, bytes, Tried]]:
@@ -228,7 +228,7 @@ def _passes(model: Model, random: Random) -> Iterator[Tried]:
     for name in random.sample(edit_passes.NAMES, _PASSES):
         if (pipeline := edit_passes.pipeline(name, model.before.text, random)) is not None:
             text, tried = _passed(model, name, pipeline)
-            yield _kept(model, text, tried, random)
+            yield _keep_files(model, text, tried, random)
 
 
 def _passed(model: Model, name: str, pipeline: str) -> tuple[bytes, Tried]:
@@ -245,7 +245,7 @@ def _passed(model: Model, name: str, pipeline: str) -> tuple[bytes, Tried]:
     return text, model.tried(kind, verdict, what)
 
 
-def _kept(model: Model, text: bytes, tried: Tried, random: Random) -> Tried:
+def _keep_files(model: Model, text: bytes, tried: Tried, random: Random) -> Tried:
     """With the files of a fault, or those that Drake is to see; and no longer the text of the result."""
     folder, pair = "", None
     if tried.verdict.is_fault:

@@ -44,7 +44,7 @@ def _sections(done: list[Followed], failures: list[str], reasons: dict[Followed,
     ]
     followed = [one for one in done if one.fate is Fate.FOLLOWED]
     lines = sorted(one.lines for one in followed)
-    middle, most, all_of_them = (_at(lines, part) for part in (0.5, 0.9, 1))
+    middle, most, all_of_them = (_quantile(lines, part) for part in (0.5, 0.9, 1))
     spread = f"Changed lines: {middle} in the middle, {most} at nine tenths, {all_of_them} at most."
     kinds = frequent((one.kind, one.name) for one in followed)
     wrong = [(one.name, one.kind, "; ".join(one.faults)[:200], why or UNEXPLAINED) for one, why in reasons.items()]
@@ -57,7 +57,7 @@ def _sections(done: list[Followed], failures: list[str], reasons: dict[Followed,
     ]
 
 
-def _at(values: list[int], part: float) -> int:
+def _quantile(values: list[int], part: float) -> int:
     return values[min(len(values) - 1, int(part * len(values)))] if values else 0
 
 

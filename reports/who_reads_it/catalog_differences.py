@@ -90,14 +90,14 @@ def _of_parameter(owner: str, name: str, rows: list[PluginParameter], read: Read
     places = {"attribute" if row.is_attribute else "element" for row in rows}
     if read.places and not places & read.places:
         yield Difference(owner, "place", name, ", ".join(sorted(places)), ", ".join(sorted(read.places)))
-    here = {_plain(row.default) for row in rows if row.default is not None}
-    there = {_plain(default) for default in read.defaults}
+    here = {_comparable_default(row.default) for row in rows if row.default is not None}
+    there = {_comparable_default(default) for default in read.defaults}
     unsaid = {zero for type_ in types for zero in _ZEROS.get(type_, set[str]())}
     if here != there and not (not there and here <= unsaid):
         yield Difference(owner, "default", name, ", ".join(sorted(here)), ", ".join(sorted(there)))
 
 
-def _plain(value: str) -> str:
+def _comparable_default(value: str) -> str:
     """A default as it is compared: numbers to nine digits."""
     try:
         return " ".join(f"{float(part):.9g}" for part in value.split()) or value

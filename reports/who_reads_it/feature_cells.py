@@ -109,7 +109,7 @@ def cell_of(feature: Feature, column: Column, told: Assessment) -> Cell:
     if column.loader is None:
         return Cell(feature.name, column.name, by_rows, rows=rows)
     reading = _ask(column.loader, feature.path)
-    measured = _seen(feature, column.loader, reading)
+    measured = _verdict_of(feature, column.loader, reading)
     verdict = measured if REFUSES in {measured, by_rows} else max(measured, by_rows, key=VERDICTS.index)
     disagrees = difference(feature.path, column.loader, reading, told)
     message = next(iter(reading.error.splitlines() or column.loader.remarks(reading)), "")
@@ -135,7 +135,7 @@ def _ask(loader: Loader, path: Path) -> Reading:
     return replace(reading, output="\n".join([reading.output, *lines]), kept=kept)
 
 
-def _seen(feature: Feature, loader: Loader, reading: Reading) -> str:
+def _verdict_of(feature: Feature, loader: Loader, reading: Reading) -> str:
     """The verdict of a loader; it differs where joints that move, masses or shapes are not those of the file."""
     verdict = _OF_LOADERS[loader.verdict(reading)]
     if verdict == REFUSES or reading.kept is None:

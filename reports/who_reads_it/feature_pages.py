@@ -165,7 +165,7 @@ def _feature_part(feature: FeatureRow, consumers: Sequence[Consumer], found: _Fo
     cells = [
         (each, found[feature["name"], each["name"]]) for each in consumers if (feature["name"], each["name"]) in found
     ]
-    alike = grouped((tuple(_what(cell)), consumer) for consumer, cell in cells)
+    alike = grouped((tuple(_describe_cell(cell)), consumer) for consumer, cell in cells)
     rows = ([verdict, _label(who), *rest] for (verdict, *rest), who in sorted(alike.items(), key=_gravest))
     text = feature["file"].rstrip("\n")
     return paragraphs(
@@ -189,7 +189,7 @@ def _gravest(item: tuple[tuple[str, ...], list[Consumer]]) -> int:
     return -("*reads*", "reads", "*warns*", "warns", "*differs*", "differs", "*refuses*", "refuses").index(item[0][0])
 
 
-def _what(cell: CellRow) -> Iterator[str]:
+def _describe_cell(cell: CellRow) -> Iterator[str]:
     yield _verdict(cell)
     message, kept = cell.get("message", ""), cell.get("kept", "")
     shown = [f"`{message.replace('`', chr(39))}`"] if message else []

@@ -98,7 +98,7 @@ def _summary(found: gazebo.Simulation, asks: str) -> str:
     if not found.done:
         why = found.errors or found.console.errors[:1]
         return f"**{found.outcome}** at {found.stage}" + (f": {why[0]}" if why else "")
-    parts = [*_freedom(found), *_asked(found, asks)]
+    parts = [*_freedom(found), *_observe(found, asks)]
     parts += [f"error: {line}" for line in dict.fromkeys(found.console.errors)]
     parts += ["warning: no mass"] if any("zero mass" in line for line in found.console.warnings) else []
     return "; ".join(parts) or "loads"
@@ -110,7 +110,7 @@ def _freedom(found: gazebo.Simulation) -> Iterator[str]:
         yield "no joint" if free is None else f"{free} degree{'' if free == 1 else 's'} of freedom"
 
 
-def _asked(found: gazebo.Simulation, asks: str) -> Iterator[str]:
+def _observe(found: gazebo.Simulation, asks: str) -> Iterator[str]:
     first, last = found.moments[0].links, found.moments[-1].links
     if asks == "fall":
         fallen = sum(last[name].pose[2] - first[name].pose[2] for name in last) / len(last)

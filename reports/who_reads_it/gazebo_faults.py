@@ -82,7 +82,7 @@ def outcomes(sample: Iterable[CorpusFile]) -> tuple[dict[str, Made], list[Findin
     found = [
         Finding(file.name, "", Fault.REFUSED, str(each), "") for file, each in results if isinstance(each, Failure)
     ]
-    found += [each for name, one in made.items() if one.path for each in _lost(name, one)]
+    found += [each for name, one in made.items() if one.path for each in _find_losses(name, one)]
     for engine in filter(gazebo.available, ENGINES):
         seen = gazebo.simulate((one.path for one in made.values() if one.path), engine, SETTINGS)
         for name, one in made.items():
@@ -140,12 +140,12 @@ def _mass(link: XmlElement, default: float) -> float:
         return 0.0
 
 
-def _lost(name: str, made: Made) -> Iterator[Finding]:
+def _find_losses(name: str, made: Made) -> Iterator[Finding]:
     """What is in the source and not in the result, or in the result with another mass."""
     source, result = made.source, made.result
     if source is None or result is None:
         return
-    for joint in sorted({_own(each) for each in source.moving} - {_own(each) for each in result.moving}):
+    for joint in sorted({_unscoped(each) for each in source.moving} - {_unscoped(each) for each in result.moving}):
         yield _finding(name, "", Fault.GONE, f"joint {joint}", made)
     if made.is_physics_kept and result.mass < source.mass * (1 - _LIGHT):
         yield _finding(name, "", Fault.LIGHTER, f"{source.mass:g} kg become {result.mass:g} kg", made)
@@ -163,8 +163,8 @@ def _findings(name: str, engine: str, made: Made, seen: gazebo.Simulation) -> It
 def _shortcomings(made: Made, seen: gazebo.Simulation) -> Iterator[tuple[Fault, str]]:
     for joint in seen.joints:
         if joint.kind != "fixed" and not joint.freedom:
-            yield Fault.FROZEN, f"joint {_own(joint.name)}: {joint.kind}"
-    there = {_own(link.name) for link in seen.links}
+            yield Fault.FROZEN, f"joint {_unscoped(joint.name)}: {joint.kind}"
+    there = {_unscoped(link.name) for link in seen.links}
     for link in sorted(made.result.links - there if made.result else ()):
         yield Fault.DROPPED, f"link {link}"
     weighed = [link.mass for link in seen.links if link.mass is not None]
@@ -172,7 +172,7 @@ def _shortcomings(made: Made, seen: gazebo.Simulation) -> Iterator[tuple[Fault, 
         yield Fault.LIGHTER, f"{made.result.mass:g} kg are {sum(weighed):g} kg"
 
 
-def _own(name: str) -> str:
+def _unscoped(name: str) -> str:
     return name.rpartition("::")[2]
 
 

@@ -47,8 +47,8 @@ def measure(sample: Sample) -> Findings:
     ]
     first = (sample.seed - 1) * MUTATED
     seeds = range(first, first + (0 if sample.files else MUTATED), sample.every)
-    made = [Job(f"mutated/{seed}", _kept("mutated", mutated(Kind.URDF, seed))) for seed in seeds]
-    newer = [Job(f"versions/{each.seed}", _kept("versions", each)) for each in _of_newer_versions(seeds)]
+    made = [Job(f"mutated/{seed}", _keep("mutated", mutated(Kind.URDF, seed))) for seed in seeds]
+    newer = [Job(f"versions/{each.seed}", _keep("versions", each)) for each in _of_newer_versions(seeds)]
     found, failures = sample.lists(pairs, [*corpus, *made, *newer], seconds=_SECONDS)
     found.sort(key=lambda pair: (pair.loader, pair.name))
     causes = {pair: _cause(pair) for pair in found if pair.difference}
@@ -66,7 +66,7 @@ def _boxed(path: Path, name: Path) -> Path:
     return kept(OUT / "loaders" / name.parent / f"{name.stem}.urdf", without_meshes(path.read_bytes()))
 
 
-def _kept(folder: str, made: Mutated) -> Path:
+def _keep(folder: str, made: Mutated) -> Path:
     return kept(OUT / "loaders" / folder / f"{made.seed}.urdf", without_meshes(made.text))
 
 

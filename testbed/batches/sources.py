@@ -52,7 +52,7 @@ class Sources:
     def make(self) -> None:
         """Write all of them."""
         (self.folder / ".git").mkdir(parents=True)
-        self._put("crate/model.config", _CONFIG)
+        self._write("crate/model.config", _CONFIG)
         kinds = {0: "w{0:03}.world", 1: "x{0:03}.urdf.xacro"}
         names = [kinds.get(number % _SHARED, "r{0:03}.urdf").format(number) for number in range(self.count - 1)]
         for name in (_CRATE_FILE, _PART_FILE, *names):
@@ -74,9 +74,9 @@ class Sources:
 
     def wanted(self) -> dict[str, bytes]:
         """What each model without an error has to become, by its place; made without any record of an earlier run."""
-        return {self.result(name): self._made(name) for name in self.names if name not in self.wrong}
+        return {self.result(name): self._make_once(name) for name in self.names if name not in self.wrong}
 
-    def _made(self, name: str) -> bytes:
+    def _make_once(self, name: str) -> bytes:
         key = tuple(self.versions[each] for each in (name, _CRATE_FILE, _PART_FILE))
         key = key if name[0] in "wx" else key[:1]
         known = self._wanted.get(name)
@@ -95,16 +95,16 @@ class Sources:
     def _change(self, name: str) -> None:
         self.versions[name] = version = self.versions.get(name, 0) + 1
         if name in self.wrong:
-            self._put(name, _WRONG)
+            self._write(name, _WRONG)
             return
         templates = {"w": _WORLD, "x": _XACRO, "c": _CRATE, "p": _PART}
         if name[0] in templates:
-            self._put(name, templates[name[0]].format(version))
+            self._write(name, templates[name[0]].format(version))
         else:
             robot = robots.urdf(3 + int(name[1:4]) % 5)
-            self._put(name, robot.replace('name="tree_of_', f'name="v{version:03}_of_'))
+            self._write(name, robot.replace('name="tree_of_', f'name="v{version:03}_of_'))
 
-    def _put(self, name: str, text: str) -> None:
+    def _write(self, name: str, text: str) -> None:
         path = self.folder / name
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text)

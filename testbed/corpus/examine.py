@@ -86,11 +86,11 @@ def _converted(file: CorpusFile, document: Document, found: Examined) -> Examine
         return replace(found, not_converted_by=rules_of(error.diagnostics), faults=faults)
     except Exception as error:  # noqa: BLE001 - every other exception is a fault to report
         return replace(found, faults=(*found.faults, fault(error)))
-    lost = tuple(part for one in there for part in _lost(one.conversion))
+    lost = tuple(part for one in there for part in _list_unaccounted(one.conversion))
     return replace(found, converted=True, there_and_back=not mismatches, mismatches=mismatches, unaccounted=lost)
 
 
-def _lost(conversion: twinform.Conversion) -> tuple[str, ...]:
+def _list_unaccounted(conversion: twinform.Conversion) -> tuple[str, ...]:
     assert conversion.source is not None
     parts = audit(conversion.source, conversion.text, conversion.ledger).unaccounted
     return tuple(f"line {part.location.line}: {part.location.path}: {part.text}" for part in parts)

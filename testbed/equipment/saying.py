@@ -71,20 +71,20 @@ class Said:
 
 def _places(document: Document) -> Iterator[tuple[tuple[str, ...], str]]:
     for link in document.models[0].links:
-        yield ("link", str(link.name)), _plain(link.location.path)
+        yield ("link", str(link.name)), _without_details(link.location.path)
         for kind, parts in (("visual", link.visuals), ("collision", link.collisions), ("sensor", link.sensors)):
             for part in parts:
                 for each in (kind, "plugin"):
-                    yield (each, str(link.name), str(part.name)), _plain(part.location.path)
+                    yield (each, str(link.name), str(part.name)), _without_details(part.location.path)
 
 
-def _plain(path: str) -> str:
+def _without_details(path: str) -> str:
     """A path in which a `<gazebo>` is neither counted nor described by what it refers to."""
     return _GAZEBO.sub("/gazebo", path)
 
 
 def _is_in(path: str, place: str) -> bool:
-    return bool(place) and f"{_plain(path)}/".startswith(f"{place}/")
+    return bool(place) and f"{_without_details(path)}/".startswith(f"{place}/")
 
 
 def _is_set_by(tag: str, found: Difference) -> bool:

@@ -37,10 +37,10 @@ def _cmake(packaged: Packaged) -> str:
         install(made(packaged))
     except AssertionError as error:
         return str(error)
-    return "; ".join(list(_lost(made(packaged)))[:2])
+    return "; ".join(list(_find_missing_files(made(packaged)))[:2])
 
 
-def _lost(package: Made) -> Iterator[str]:
+def _find_missing_files(package: Made) -> Iterator[str]:
     for file in (*package.share.glob("urdf/*.urdf"), *package.share.glob("*.sdf")):
         for path in dict.fromkeys(_URI.findall(_COMMENT.sub("", file.read_text(encoding="utf-8")))):
             if not (package.share.parent / path).is_file():

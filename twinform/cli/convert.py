@@ -206,12 +206,12 @@ class _ConvertRun:
     def split_world(self, target: Target, folder: Path, *, check: bool) -> int:
         """Write the models of a world and an SDF that includes them into a folder."""
         outputs = self._outputs(check=check)
-        return self._end(outputs, [run_split(_single(self.sources), target, self.options, folder, outputs)])
+        return self._write_all(outputs, [run_split(_single(self.sources), target, self.options, folder, outputs)])
 
     def update(self, into: Path | None, base: Path | None, *, check: bool) -> int:
         """Update a file of the other format with the edits of the input."""
         outputs = self._outputs([into] if into else (), check=check)
-        return self._end(outputs, [run_into(_single(self.sources, "--into"), into, base, self.options, outputs)])
+        return self._write_all(outputs, [run_into(_single(self.sources, "--into"), into, base, self.options, outputs)])
 
     def print_pipelines(self, todo: Sequence[ConversionJob]) -> int:
         """Print the passes that would run."""
@@ -229,7 +229,7 @@ class _ConvertRun:
             codes = [run_job(job, own, _label(job, todo), outputs) for job, own in planned]
         if in_place and not max(codes):
             self._follow(planned, outputs)
-        return self._end(outputs, codes)
+        return self._write_all(outputs, codes)
 
     def _run_with_depfile(self, job: ConversionJob, own: Options, depfile: Path, outputs: Outputs) -> int:
         """Run one conversion, and list the files that it reads and those with its settings."""
@@ -261,7 +261,7 @@ class _ConvertRun:
         read = [*(source.path for source in self.sources), *([settings] if settings else [])]
         return Outputs(read, rewritten, check)
 
-    def _end(self, outputs: Outputs, codes: Sequence[int]) -> int:
+    def _write_all(self, outputs: Outputs, codes: Sequence[int]) -> int:
         """Write everything, or nothing if an input has an error."""
         if not max(codes):
             return outputs.write(self.options.load_options.search.seen)

@@ -134,7 +134,7 @@ class FileRun:
         todo = [task for task, result in zip(tasks, known, strict=True) if result is None]
         is_much = sum(task.seconds for task in todo) >= _MUCH
         count = min(len(todo), self._jobs or (_processors() if is_much else 1))
-        made = self._in_processes(kind, todo, count) if count > 1 else map(self._here, todo)
+        made = self._in_processes(kind, todo, count) if count > 1 else map(self._do_here, todo)
         with closing(next(made) if each is None else each for each in known) as results:
             yield results
 
@@ -152,7 +152,7 @@ class FileRun:
         if self._results is not None and seen is not None and task.is_kept:
             self._results.put(_digest(task), row, seen)
 
-    def _here(self, task: FileWork[Result]) -> Result:
+    def _do_here(self, task: FileWork[Result]) -> Result:
         if self._results is None:
             return task.do()
         made, seen = self._results.observer.observe(task.do)

@@ -82,13 +82,13 @@ class ContextByFile:
 
     def _of_project(self, project: Project) -> click.Context:
         if project.path not in self._known:
-            self._known[project.path] = self._made(project)
+            self._known[project.path] = self._make_context(project)
         found = self._known[project.path]
         if isinstance(found, ConfigError):
             raise found
         return found
 
-    def _made(self, project: Project) -> click.Context | ConfigError:
+    def _make_context(self, project: Project) -> click.Context | ConfigError:
         own = settings_of(self.ctx).path
         if project.path and own and os.path.realpath(own) == os.path.realpath(project.path):
             return self.ctx

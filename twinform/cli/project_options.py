@@ -69,7 +69,7 @@ class OptionsByFile:
         Raises:
             ConfigError: its settings are wrong.
         """
-        return self._in(self.context_of(name), name)
+        return self._resolve_in(self.context_of(name), name)
 
     def context_of(self, name: str) -> click.Context:
         """Return the context of the command with the settings of a file's project.
@@ -101,7 +101,7 @@ class OptionsByFile:
                 raise
             return None
 
-    def _in(self, ctx: click.Context, name: str) -> ResolvedOptions:
+    def _resolve_in(self, ctx: click.Context, name: str) -> ResolvedOptions:
         usual, per_file = self._usual_in(ctx), settings_of(ctx).per_file
         own = per_file.of(name) if per_file else NO_OWN_SETTINGS
         return usual if own is NO_OWN_SETTINGS else self._apply(ctx, usual, own)

@@ -83,14 +83,14 @@ def _rows(entries: Iterable[LedgerEntry]) -> Iterable[dict[str, object]]:
 
 
 def _change(change: PhysicsChange) -> dict[str, object]:
-    values = [{"path": each.path, "was": _plain(each.was), "now": _plain(each.now)} for each in change.values]
+    values = [{"path": each.path, "was": _as_json(each.was), "now": _as_json(each.now)} for each in change.values]
     return {"pass": change.step, "part": change.part, "name": change.name, "values": values}
 
 
-def _plain(value: object) -> object:
+def _as_json(value: object) -> object:
     """Convert a value for JSON; NaN and infinities become text."""
     if isinstance(value, tuple):
-        return [_plain(each) for each in cast("tuple[object, ...]", value)]
+        return [_as_json(each) for each in cast("tuple[object, ...]", value)]
     if isinstance(value, float) and not math.isfinite(value):
         return str(value)
     return value if value is None or isinstance(value, (bool, int, float, str)) else str(value)

@@ -63,8 +63,8 @@ def _field(old: object, new: object, node: str, path: str) -> Iterator[NodeChang
     if isinstance(old, Node) and type(old) is type(new):
         yield from _inside(old, cast("Node", new), path)
     elif isinstance(old, Node) or isinstance(new, Node):
-        yield from _whole(ChangeKind.REMOVED, old, path)
-        yield from _whole(ChangeKind.ADDED, new, path)
+        yield from _list_whole_node(ChangeKind.REMOVED, old, path)
+        yield from _list_whole_node(ChangeKind.ADDED, new, path)
     elif _has_parts(old) or _has_parts(new):
         yield from _lists(cast("Sequence[Sourced]", old or ()), cast("Sequence[Sourced]", new or ()), node, path)
     elif not _is_same(old, new):
@@ -81,7 +81,7 @@ def _has_parts(value: object) -> bool:
     return bool(parts) and isinstance(parts[0], Sourced)
 
 
-def _whole(how: ChangeKind, part: object, path: str) -> Iterator[NodeChange]:
+def _list_whole_node(how: ChangeKind, part: object, path: str) -> Iterator[NodeChange]:
     """Yield a node that only one document has, with all values in it."""
     if not isinstance(part, Node):
         return
@@ -91,7 +91,7 @@ def _whole(how: ChangeKind, part: object, path: str) -> Iterator[NodeChange]:
             continue
         inner = f"{path}/{name}"
         if isinstance(value, Node):
-            yield from _whole(how, value, inner)
+            yield from _list_whole_node(how, value, inner)
         elif _has_parts(value):
             for each, label in zip(value, _labels(value), strict=True):
                 yield from _alone(how, each, path, inner + label)
@@ -106,7 +106,7 @@ def _value(how: ChangeKind, value: object, node: str, path: str) -> NodeChange:
 def _alone(how: ChangeKind, part: Sourced, node: str, path: str) -> Iterator[NodeChange]:
     """Yield the change of a list element that only one document has."""
     if isinstance(part, Node):
-        yield from _whole(how, part, path)
+        yield from _list_whole_node(how, part, path)
     else:
         yield _value(how, part, node, path)
 
@@ -134,7 +134,7 @@ def _matched(old: Sequence[Sourced], new: Sequence[Sourced]) -> dict[int, int]:
     pairs = dict[int, int]()
     for key in (_name, _without_name, _kind):
         taken = set(pairs.values())
-        pairs |= _pair(_by(key, old, set(pairs)), _by(key, new, taken))
+        pairs |= _pair(_group_by(key, old, set(pairs)), _group_by(key, new, taken))
     return pairs
 
 
@@ -143,7 +143,7 @@ def _pair(old: dict[Hashable, list[int]], new: dict[Hashable, list[int]]) -> dic
     return {a: b for key, places in old.items() for a, b in zip(places, new.get(key, ()), strict=False)}
 
 
-def _by(
+def _group_by(
     key: Callable[[Sourced], Hashable | None], parts: Sequence[Sourced], but: set[int]
 ) -> dict[Hashable, list[int]]:
     """Group the places of parts by their keys."""

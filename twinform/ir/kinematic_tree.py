@@ -161,11 +161,11 @@ def _scopes(holder: Model | World) -> Iterator[tuple[str, Model | World]]:
 def _between(holder: Model | World, prefix: str, frames: FrameGraph) -> Iterator[JointBetween]:
     for joint in holder.joints:
         if joint.parent and joint.child:
-            parent, child = (_end(joint, name, prefix, frames) for name in (joint.parent, joint.child))
+            parent, child = (_body_at_end(joint, name, prefix, frames) for name in (joint.parent, joint.child))
             yield JointBetween(prefix + joint.name, joint.type, parent, child, joint)
 
 
-def _end(joint: Joint, name: str, prefix: str, frames: FrameGraph) -> str:
+def _body_at_end(joint: Joint, name: str, prefix: str, frames: FrameGraph) -> str:
     scoped = name if name == WORLD and not frames.knows(prefix + name) else prefix + name
     return frames.body(scoped, source=joint.source)
 

@@ -195,7 +195,7 @@ def _exact_bool(text: str) -> bool:
     return _SPELLED[text]
 
 
-def _whole(text: str) -> int:
+def _parse_whole_number(text: str) -> int:
     """Parse a decimal number of 32 bits."""
     word = text.strip(" \t\n\r")
     if not _DECIMAL.fullmatch(word) or len(word) > 11 or not -_LARGEST <= int(word) < _LARGEST:
@@ -275,17 +275,17 @@ _MJCF = {
     "string": ValueType(_string, "text"),
     "words": ValueType(_words, "words"),
     "bool": ValueType(_exact_bool, "true or false"),
-    "int": ValueType(_whole, "a whole number"),
+    "int": ValueType(_parse_whole_number, "a whole number"),
     "double": ValueType(_loose_float, "a number"),
     "vector3": ValueType(_loose_numbers(3, 3), "three numbers"),
     "quaternion": ValueType(_loose_numbers(4, 4), "four numbers: w x y z"),
     "color4": ValueType(_loose_numbers(4, 4), "four numbers: red green blue alpha"),
     "doubles": ValueType(_loose_numbers(0, None), "numbers"),
-    "ints": ValueType(_list(_whole, 0, None), "whole numbers"),
+    "ints": ValueType(_list(_parse_whole_number, 0, None), "whole numbers"),
     "memory": ValueType(_spelled(_MEMORY), "a number of bytes, perhaps with K, M, G, T, P or E behind it, or -1"),
     "axes": ValueType(_spelled(_AXES), "three letters of x, y, z, X, Y, Z"),
     **_counted_lists("double", _loose_numbers, "numbers"),
-    **_counted_lists("int", partial(_list, _whole), "whole numbers"),
+    **_counted_lists("int", partial(_list, _parse_whole_number), "whole numbers"),
 }
 
 VALUE_TYPES = {"urdf": _URDF, "sdf": _SDF, "mjcf": _MJCF}

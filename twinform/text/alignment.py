@@ -118,7 +118,7 @@ def matched(before: Sequence[XmlElement], after: Sequence[XmlElement], contents:
     pairs = list(_in_groups(before, after, [], contents.number, _in_order))
     similar = partial(_most_similar, before, after, contents)
     pairs += _in_groups(before, after, pairs, known_by, similar)
-    here, there = _left(before, after, pairs)
+    here, there = _unpaired(before, after, pairs)
     known = {known_by(before[i]) for i, _ in pairs}
     named = [i for i in here if known_by(before[i]) not in known], [j for j in there if known_by(after[j]) not in known]
     return pairs + list(_by_tag(before, after, *named))
@@ -177,7 +177,9 @@ def moved_pairs(pairs: Sequence[Pair]) -> list[Pair]:
     return moved[::-1]
 
 
-def _left(before: Sequence[XmlElement], after: Sequence[XmlElement], pairs: Sequence[Pair]) -> tuple[Places, Places]:
+def _unpaired(
+    before: Sequence[XmlElement], after: Sequence[XmlElement], pairs: Sequence[Pair]
+) -> tuple[Places, Places]:
     """Return the places in both lists that no pair has."""
     taken = {i for i, _ in pairs}, {j for _, j in pairs}
     return [i for i in range(len(before)) if i not in taken[0]], [j for j in range(len(after)) if j not in taken[1]]
@@ -191,7 +193,7 @@ def _in_groups(
     pair: Callable[[Places, Places], Iterable[Pair]],
 ) -> Iterator[Pair]:
     """Pair elements with equal keys that no pair has yet."""
-    here, there = _left(before, after, pairs)
+    here, there = _unpaired(before, after, pairs)
     groups = defaultdict[Hashable, tuple[Places, Places]](lambda: ([], []))
     for i in here:
         groups[key(before[i])][0].append(i)

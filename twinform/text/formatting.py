@@ -102,7 +102,7 @@ class _Formatting:
                     self._fixed(number, fixed[number])
                     number = fixed[number]
             elif kind == TokenKind.END:
-                self._end(number)
+                self._write_end_tag(number)
             elif kind == TokenKind.COMMENT:
                 self._comment(number)
             elif kind == TokenKind.INSTRUCTION:
@@ -121,7 +121,7 @@ class _Formatting:
             name = plain[1] if plain else name_of(text)
             self.open.append(_OpenElement(name, opaque=around.opaque or name in self.usage.OPAQUE))
 
-    def _end(self, number: int) -> None:
+    def _write_end_tag(self, number: int) -> None:
         ended = self.open.pop()
         if not (ended.on_one_line and self._lines_before(number) == 0):
             self._begin_line(number)

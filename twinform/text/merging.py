@@ -120,7 +120,7 @@ class _Merging:
     def _conflict(self, own: XmlElement, message: str) -> None:
         self.conflicts.append(Conflict(self.originals.get(own, own), message))
 
-    def _is(self, old: str | None, here: str | None) -> bool:
+    def _is_unchanged(self, old: str | None, here: str | None) -> bool:
         """Tell whether the person's value is still the one before the change."""
         return self.same or same_value(old, here)
 
@@ -129,7 +129,7 @@ class _Merging:
             old, new, here = before.get(name), after.get(name), own.get(name)
             if old == new or same_value(new, here):
                 continue
-            if not self._is(old, here):
+            if not self._is_unchanged(old, here):
                 self._conflict(own, f"{name} of {_shown(own)} {_changes(old, new, here)}")
             elif new is None:
                 own.attrib.pop(name, None)
@@ -140,7 +140,7 @@ class _Merging:
         old, new, here = (texts(each)[0] for each in (before, after, own))
         if old == new or same_value(new, here):
             return
-        if self._is(old, here):
+        if self._is_unchanged(old, here):
             _set_text(own, new)
         else:
             self._conflict(own, f"the text of {_shown(own)} {_changes(old or None, new or None, here or None)}")

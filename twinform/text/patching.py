@@ -103,11 +103,11 @@ class Editor:
         if place.content is None:
             return self.fill(place, shown + self.around.layout(place).indent, place.name.of(self.text))
         children = list(place.children)
-        end = self._end(place, self.places[behind] if behind is not None else children[-1] if children else None)
+        end = self._line_end(place, self.places[behind] if behind is not None else children[-1] if children else None)
         closing = "" if children or "\n" in place.content.of(self.text) else self.around.layout(place).indent
         return TextEdit(Span(end, end), shown + closing)
 
-    def _end(self, place: ElementSpan, last: ElementSpan | None) -> int:
+    def _line_end(self, place: ElementSpan, last: ElementSpan | None) -> int:
         """Return the offset behind a child, or the last comment of a childless element, and comments on that line."""
         if last is not None:
             return self.around.behind(last.whole.end)

@@ -212,7 +212,7 @@ class _PositionScan:
         assert self.root is not None  # noqa: S101 - a well-formed text has a root
         return self.root
 
-    def _here(self) -> int:
+    def _offset(self) -> int:
         """Return the offset in characters of expat's position in bytes; each byte is looked at once."""
         byte = self.parser.CurrentByteIndex
         if self.ascii:
@@ -223,7 +223,7 @@ class _PositionScan:
         return seen
 
     def _start(self, _: str, __: dict[str, str]) -> None:
-        element = start_tag(self.text, self._here())
+        element = start_tag(self.text, self._offset())
         if self.open:
             self.open[-1].children.append(element)
         else:
@@ -232,7 +232,7 @@ class _PositionScan:
 
     def _end(self, _: str) -> None:
         element = self.open.pop()
-        start = self._here()
+        start = self._offset()
         if not self.text.endswith("/>", 0, element.start_tag.end):
             element.end_tag = Span(start, self.text.index(">", start) + 1)
 
@@ -243,7 +243,7 @@ class _PositionScan:
         self._aside("<?", "?>")
 
     def _aside(self, begin: str, end: str) -> None:
-        start = self._here()
+        start = self._offset()
         if self.open:
             self.open[-1].asides.append(Span(start, self.text.index(end, start + len(begin)) + len(end)))
 

@@ -23,7 +23,7 @@ def differences(
     yield from _new_lines(reference, result)
     yield from joint_differences(reference, result, tolerances)
     if frames:
-        yield from _rest(reference.moments[0], result.moments[0], tolerances)
+        yield from _compare_at_rest(reference.moments[0], result.moments[0], tolerances)
     yield from _mass(reference, result)
     if tolerances.moved is not None:
         yield from motion_differences(reference, result, tolerances.moved)
@@ -41,7 +41,7 @@ def _new_lines(reference: Simulation, result: Simulation) -> Iterator[Difference
         yield from (Difference(kind, "", line) for line in dict.fromkeys(now) if line not in before)
 
 
-def _rest(reference: Moment, result: Moment, tolerances: Tolerances) -> Iterator[Difference]:
+def _compare_at_rest(reference: Moment, result: Moment, tolerances: Tolerances) -> Iterator[Difference]:
     now = {short(name): state for name, state in result.links.items()}
     for name, state in reference.links.items():
         if short(name) not in now:

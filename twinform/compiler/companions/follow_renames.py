@@ -36,7 +36,7 @@ class Renames(NamedTuple):
     def new(self, mention: Mention[Span]) -> str | None:
         """Return the new name of what a mention means; None where it stays."""
         part = PART_OF.get(mention.kind)
-        return (self.links if part == "link" else self.joints).get(_bare(mention)) if part else None
+        return (self.links if part == "link" else self.joints).get(_bare_name(mention)) if part else None
 
 
 class FollowedFile(NamedTuple):
@@ -168,7 +168,7 @@ def edit_of(mention: Mention[Span], new: str, text: str, *, is_xml: bool) -> Tex
     place = mention.place
     if place.of(text) != mention.text:
         return None
-    bare = _bare(mention)
+    bare = _bare_name(mention)
     start = place.end - len(bare) if mention.kind != "interface" else place.start
     span = Span(start, start + len(bare))
     if is_xml:
@@ -184,7 +184,7 @@ def edit_of(mention: Mention[Span], new: str, text: str, *, is_xml: bool) -> Tex
     return TextEdit(place, "'{}'".format(whole.replace("'", "''")))
 
 
-def _bare(mention: Mention[Span]) -> str:
+def _bare_name(mention: Mention[Span]) -> str:
     """Return the name of the part alone: TF had a slash before frames once."""
     return mention.name.removeprefix("/")
 

@@ -75,23 +75,23 @@ class LeafWalk:
         for name, text in element.items():
             row = rows.get(f"@{name}")
             default = _untyped_value(row.default) if row is not None and row.default else None
-            self._put(f"{path}/@{name}", _untyped_value(str(text)), default, only=Format.MJCF)
+            self._add(f"{path}/@{name}", _untyped_value(str(text)), default, only=Format.MJCF)
         for key, child in _keyed(element, rows):
             if child.tag in _DERIVED_IN_MJCF:
                 continue
             row, inner = rows.get(str(child.tag)), f"{path}/{key}"
             if row is not None and row.repeats:
-                self._put(inner, THERE, None, only=Format.MJCF)
+                self._add(inner, THERE, None, only=Format.MJCF)
             self._enter_kept(child, table("mjcf").resolve(row) if row else None, inner)
 
     def enter_free(self, element: XmlElement, path: str, *, carried: bool = False, fact: Fact | None = None) -> None:
         """Collect the values of content that SDF's table does not describe; `fact` is its row in URDF's table."""
         for name, value in element.items():
             if not str(name).startswith(_OURS):
-                self._put(_join(path, f"@{name}"), _untyped_value(str(value)), None, carried=carried)
+                self._add(_join(path, f"@{name}"), _untyped_value(str(value)), None, carried=carried)
         text = (element.text or "").strip()
         if text or not (len(element) or element.keys()):
-            self._put(path or "text", _untyped_value(text), None, carried=carried)
+            self._add(path or "text", _untyped_value(text), None, carried=carried)
         for key, child in _keyed(element, {}):
             row = urdf_row(fact, str(child.tag)) if fact else None
             if row is None or row.repeats or not _says_again(child):
@@ -105,7 +105,7 @@ class LeafWalk:
         written = element.find("pose")
         pose = Pose.unchecked() if written is None else read_pose(from_xml(written))
         here = self.resolve(pose, holder)
-        self._put(f"{path}pose", PoseValue(here), None, carried=carried)
+        self._add(f"{path}pose", PoseValue(here), None, carried=carried)
         return here
 
     def _attributes(self, element: XmlElement, rows: dict[str, Fact], path: str, *, carried: bool) -> None:
@@ -113,7 +113,7 @@ class LeafWalk:
             if str(name).startswith(_OURS) or f"{path}@{name}" in self.skipped:
                 continue
             row = rows.get(f"@{name}")
-            self._put(f"{path}@{name}", _value(str(text), row), _default(row), carried=carried)
+            self._add(f"{path}@{name}", _value(str(text), row), _default(row), carried=carried)
 
     def _child(self, child: XmlElement, row: Fact | None, here: Transform, path: str, *, carried: bool) -> None:
         carried = carried or child.get(CARRIED) is not None
@@ -129,16 +129,16 @@ class LeafWalk:
     def _leaf(self, child: XmlElement, row: Fact, path: str, *, carried: bool) -> None:
         text = (child.text or "").strip()
         if text:
-            self._put(path, _value(text, row), _default(row), carried=carried)
+            self._add(path, _value(text, row), _default(row), carried=carried)
         self._attributes(child, _rows(row), f"{path}/", carried=carried)
 
     def _container(self, child: XmlElement, row: Fact, here: Transform, path: str, *, carried: bool) -> None:
         fact = table("sdf").resolve(row)
         inner = [one for one in child if isinstance(one.tag, str) and not one.tag.startswith(_OURS)]
         if row.name == "geometry":
-            self._put(path, Text(in_usual_namespaces(str(inner[0].tag)) if inner else "empty"), None, carried=carried)
+            self._add(path, Text(in_usual_namespaces(str(inner[0].tag)) if inner else "empty"), None, carried=carried)
         elif row.repeats or (row.name in _MEANINGFUL_WHEN_EMPTY and (inner or _own_keys(child))):
-            self._put(path, THERE, None, carried=carried)
+            self._add(path, THERE, None, carried=carried)
         if fact.any:
             self.enter_free(child, path, carried=carried)
         else:
@@ -146,7 +146,7 @@ class LeafWalk:
         if row.repeats:
             self.found.pop(f"{path}/@name", None)  # it is in the path
 
-    def _put(
+    def _add(
         self, path: str, value: Value, default: Value | None, *, carried: bool = False, only: Format | None = None
     ) -> None:
         """Add a leaf, unless its path has one: the first of two elements counts."""

@@ -133,7 +133,10 @@ class _RobotReading:
         return self._reuse("link", link.name, (link, frame), lambda: self._read_body(link, frame))
 
     def _joint(self, joint: Joint) -> JointView:
-        frame, ends = self.graph.place(joint.name, kind="joint"), (self._end(joint.parent), self._end(joint.child))
+        frame, ends = (
+            self.graph.place(joint.name, kind="joint"),
+            (self._link_at(joint.parent), self._link_at(joint.child)),
+        )
         degrees = tuple(degrees_of(joint, frame, Format.SDF, lambda name: self.graph.place(name, kind="frame")))
         given, make = (joint, frame, *ends, degrees), lambda: self._read_joint(joint, frame, ends, degrees)
         return self._reuse("joint", joint.name, given, make)
@@ -160,7 +163,7 @@ class _RobotReading:
         values = joint_leaves(joint, leaves)
         return JointView(joint.name, joint.type, *ends, frame, degrees, values, parts, joint.source)
 
-    def _end(self, name: str | None) -> str:
+    def _link_at(self, name: str | None) -> str:
         """Return the link that the parent or child frame of a joint is fixed to."""
         return self.graph.body(name or WORLD)
 

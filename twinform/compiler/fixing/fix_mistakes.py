@@ -122,7 +122,7 @@ def _yaml_in_comment(_: Diagnostic, file: FixableFile) -> Fix | None:
     """Write other characters for those of YAML, in all comments of the file."""
     if "yaml in comments" not in file.memo:
         edits = [
-            TextEdit(Span(*found.span()), _plain(found, file.text[comment.start : found.start()]))
+            TextEdit(Span(*found.span()), _plain_text_for(found, file.text[comment.start : found.start()]))
             for comment in breaking_comments(file.text)
             for found in breaks_in(file.text, comment)
         ]
@@ -131,7 +131,7 @@ def _yaml_in_comment(_: Diagnostic, file: FixableFile) -> Fix | None:
     return file.memo["yaml in comments"]
 
 
-def _plain(found: re.Match[str], before: str) -> str:
+def _plain_text_for(found: re.Match[str], before: str) -> str:
     """Return what is written for a character of YAML; comments that allow findings need no colon."""
     if found[0] != ":":
         return "*" * len(found[0])

@@ -105,7 +105,7 @@ def _offer(finding: Diagnostic, files: _Files) -> Diagnostic:
         fix = _make_fix(about, file)
     except ComputedError as error:
         return _without_fix(finding, str(error))
-    kept = _kept(fix, file) if fix and fix.edits else None
+    kept = _without_idle_edits(fix, file) if fix and fix.edits else None
     if kept and file.expanded:
         kept = _with_place(kept, finding.location, file.expanded)
     if kept and file is not files.whole and file.loaded.path != files.loaded.path:
@@ -132,7 +132,7 @@ def _only_agreed(finding: Diagnostic, editor: ExpandedEditor) -> Diagnostic:
     return _without_fix(finding, "not all that comes from this text needs it")
 
 
-def _kept(fix: Fix, file: FixableFile) -> Fix | None:
+def _without_idle_edits(fix: Fix, file: FixableFile) -> Fix | None:
     """Return what is left of a fix without edits that change nothing; None where it must not be made."""
     if len(fix.edits) > _MANY_EDITS:
         # what fixes all places at once is the same for each of a thousand findings

@@ -75,7 +75,7 @@ def outline(data: bytes, *, plain: bool = False) -> Outline:
         tags = _Tags(text)
     except (UndecodableError, expat.ExpatError):
         return UNKNOWN
-    asked = _asked(text) if "$(" in text else {}
+    asked = _find_requests(text) if "$(" in text else {}
     return Outline(
         tags.root,
         tags.makes_plain_robot() if plain else tags.makes_robot(),
@@ -97,7 +97,7 @@ def is_mjcf_model(path: Path) -> bool:
         return True  # reading it reports why
 
 
-def _asked(text: str) -> dict[str, list[Mention]]:
+def _find_requests(text: str) -> dict[str, list[Mention]]:
     """Find the arguments and packages that a text asks for outside of comments, by the word that asks."""
     lines = Lines(text)
     found = defaultdict[str, list[Mention]](list)

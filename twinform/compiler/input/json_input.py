@@ -72,7 +72,7 @@ def read_json(text: bytes, sink: DiagnosticSink) -> JsonSource | None:
     """
     try:
         decoded = text.decode("utf-8-sig")
-        data = json.loads(decoded, object_pairs_hook=_object, parse_constant=_refuse, parse_int=_whole)
+        data = json.loads(decoded, object_pairs_hook=_object, parse_constant=_refuse, parse_int=_parse_whole_number)
         named = data.get("namespaces") if is_object(data) else None
         refuse_excess(excess_of_names(len(named) if is_array(named) else 0, decoded.count(_QUALIFIED)), sink)
         return _source(decoded, data, sink)
@@ -133,7 +133,7 @@ def _refuse(word: str) -> object:
     raise ValueError(f'{word} is no number of JSON; SDF may have the word "{word}" in quotes')
 
 
-def _whole(digits: str) -> int:
+def _parse_whole_number(digits: str) -> int:
     most = sys.get_int_max_str_digits()
     if most and len(digits.lstrip("-")) > most:  # the words of `int` are about Python, not about the file
         raise ValueError(f"a number has more than {most:,} digits")

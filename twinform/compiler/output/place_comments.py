@@ -176,14 +176,14 @@ class _CommentPlacing:
         if self._is_empty(target):
             self.filled[target].append(inner + _format_comment(comment, inner))
         elif self._has_children(target):
-            end = self.text.rindex("</", target.head, self._end(target))
+            end = self.text.rindex("</", target.head, self._end_of(target))
             self._add_below(end - len(target.indent), inner, comment)
         else:
             self._add_beside(target, comment)
         return True
 
     def _add_beside(self, target: _Target, comment: SourceComment) -> None:
-        self.insertions.append(_Insertion(self._end(target), _BESIDE, f" {_format_comment(comment, target.indent)}"))
+        self.insertions.append(_Insertion(self._end_of(target), _BESIDE, f" {_format_comment(comment, target.indent)}"))
 
     def _add_below(self, at: int, indent: str, comment: SourceComment) -> None:
         self.insertions.append(_Insertion(at, _BELOW, indent + _format_comment(comment, indent)))
@@ -202,7 +202,7 @@ class _CommentPlacing:
         """Whether an element has others in it, and no text before them."""
         return not self._is_empty(target) and self.text.startswith(f"{target.indent}{_STEP}<", target.head)
 
-    def _end(self, target: _Target) -> int:
+    def _end_of(self, target: _Target) -> int:
         if target not in self.ends:
             self.ends[target] = end_of_element(self.text, target.start)
         return self.ends[target]
@@ -249,7 +249,7 @@ class _CommentPlacing:
     def _starts_inside(self, around: _Target, tag: str) -> list[int]:
         """Return where the children with a tag begin in an element; if there are none, the first one deeper inside."""
         if (around, tag) not in self.inside:
-            span = around.head, self._end(around)
+            span = around.head, self._end_of(around)
             named = rf"<{re.escape(tag)}(?=[\s/>])"
             # Behind text a child is on its line, and so is a comment before it: without the comments the
             # text is what it is when none are wanted.

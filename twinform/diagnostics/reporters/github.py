@@ -22,7 +22,7 @@ def _command(diagnostic: Diagnostic, file: str) -> str:
     properties = {
         "file": where.file or file,
         "line": str(where.line or ""),
-        **_end(where),
+        **_end_fields(where),
         "title": diagnostic.rule.name,
     }
     listed = ",".join(
@@ -33,7 +33,7 @@ def _command(diagnostic: Diagnostic, file: str) -> str:
     return f"::{_COMMANDS[diagnostic.severity]} {listed}::{message}"
 
 
-def _end(where: Location) -> dict[str, str]:
+def _end_fields(where: Location) -> dict[str, str]:
     """Return the end of a piece for GitHub, which shows pieces of a single line only."""
     if where.end_line > where.line:
         return {"endLine": str(where.end_line)}

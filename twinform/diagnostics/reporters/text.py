@@ -12,11 +12,11 @@ _SHOWN = 3
 """So many places of one cause are named."""
 
 
-def _plain(word: str, _: Severity) -> str:
+def _unpainted(word: str, _: Severity) -> str:
     return word
 
 
-def text(files: Sequence[FileFindings], paint: Paint = _plain, *, every: bool = False) -> str:
+def text(files: Sequence[FileFindings], paint: Paint = _unpainted, *, every: bool = False) -> str:
     """`file:line:column: severity: headline [rule]`, then XML path, source line, related places, help and fix.
 
     Findings of one cause are one, with a count, unless `every` one is wanted. Empty without findings.
@@ -29,7 +29,7 @@ def text(files: Sequence[FileFindings], paint: Paint = _plain, *, every: bool = 
     )
 
 
-def concise(files: Sequence[FileFindings], paint: Paint = _plain) -> str:
+def concise(files: Sequence[FileFindings], paint: Paint = _unpainted) -> str:
     """One line for each finding: `file:line:column: severity: headline [rule]`."""
     return "".join(f"{_headline(each, file.path, paint)}\n" for file in files for each in file.diagnostics)
 

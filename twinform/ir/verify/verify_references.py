@@ -91,7 +91,7 @@ class References:
         self._pose(joint)
         for end, name in (("parent", joint.parent), ("child", joint.child)):
             if name is not None and (name != WORLD or self.own == WORLD):
-                self._end(joint, end, name)
+                self._verify_end(joint, end, name)
         for axis in (joint.axis, joint.axis2):
             if axis is not None and axis.expressed_in:
                 self._frame(axis.expressed_in, axis, "xyz/@expressed_in")
@@ -102,7 +102,7 @@ class References:
             hint = did_you_mean(reference, self.scope.names("link"))
             self.sink.report(rules.DANGLING_LINK, message, where, found=reference, severity=Severity.WARNING, help=hint)
 
-    def _end(self, joint: Joint, end: str, name: str) -> None:
+    def _verify_end(self, joint: Joint, end: str, name: str) -> None:
         if name == joint.name and self.scope.find(name) == "joint":
             message = f"joint {joint.name!r} has itself as its {end}"
             self.sink.report(rules.SELF_JOINT, message, joint.location.at(end), found=name)

@@ -185,13 +185,13 @@ class _Verifier:
                 problem.report(self.sink)
                 seen.add(problem.found)
         if graph is not None and not problems:
-            self._ends(holder, graph)
+            self._verify_ends(holder, graph)
             for model in holder.models if isinstance(holder, Model) else ():
                 for scope, nested in scoped_models(model, model.name + SCOPE):
                     # libsdformat does not look there, so it is no error until a format cannot express it
-                    self._ends(nested, graph, scope, None if self.sink.strict else Severity.WARNING)
+                    self._verify_ends(nested, graph, scope, None if self.sink.strict else Severity.WARNING)
 
-    def _ends(
+    def _verify_ends(
         self, holder: Model | World, graph: FrameGraph, scope: str = "", severity: Severity | None = None
     ) -> None:
         """Report joints that connect a link to itself by way of a frame."""

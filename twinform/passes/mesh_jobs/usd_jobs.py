@@ -158,12 +158,12 @@ def _values(prim: Any) -> Iterator[tuple[str, object]]:
     for attribute in prim.GetAttributes():
         name = attribute.GetName()
         wanted = name in _SHAPES or (":" in name and not name.startswith(_ASIDE) and attribute.HasAuthoredValue())
-        value = _plain(attribute.Get()) if wanted else None
+        value = _as_json(attribute.Get()) if wanted else None
         if value is not None:
             yield name, value
 
 
-def _plain(value: Any) -> object:
+def _as_json(value: Any) -> object:
     """A value as JSON has it: a quaternion as its real part and three others; None for what is not needed."""
     if isinstance(value, bool | int | float | str):
         return value

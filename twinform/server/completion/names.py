@@ -201,10 +201,10 @@ def _refused(place: ValuePlace, path: str) -> set[str]:
         return {name.text for name in definitions_in(place.document) if name.kind == "material"}
     refused = {own.get("name") or ""} if own is not None and place.attribute != "name" else set[str]()
     if path in {"joint/parent/@link", "joint/child/@link", "joint/parent", "joint/child"} and joint is not None:
-        refused |= set(_ends(place.document, [joint], "child" if node.tag == "parent" else "parent"))
+        refused |= set(_links_at_ends(place.document, [joint], "child" if node.tag == "parent" else "parent"))
         if node.tag == "child" and joint.parent is not None:  # a second joint above it would close a loop
             joints = (each for each in joint.parent.children if each.tag == "joint" and each is not joint)
-            refused |= set(_ends(place.document, joints, "child"))
+            refused |= set(_links_at_ends(place.document, joints, "child"))
         refused |= set(_frames_on(refused, joint.parent))
     if path in {"joint/mimic/@joint", "controlled/@name"}:
         refused |= set(_fixed_joints(place.document))
@@ -231,7 +231,7 @@ def _joint_around(node: TolerantNode) -> TolerantNode | None:
     return here if here is not None and here.tag == "joint" else None
 
 
-def _ends(document: TextDocument, joints: Iterable[TolerantNode], tag: str) -> Iterator[str]:
+def _links_at_ends(document: TextDocument, joints: Iterable[TolerantNode], tag: str) -> Iterator[str]:
     for joint in joints:
         for end in joint.children:
             if end.tag == tag:

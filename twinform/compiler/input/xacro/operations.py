@@ -150,7 +150,7 @@ def paying(python: Callable[..., Any], budget: Budget) -> Callable[..., Value]:
     return call
 
 
-def _plain(kind: type[Any], *names: str) -> dict[str, Method]:
+def _plain_methods(kind: type[Any], *names: str) -> dict[str, Method]:
     """Methods that make nothing larger of what they are given, and take as long as that is large."""
     return {name: partial(_pay, getattr(kind, name)) for name in names}
 
@@ -247,7 +247,7 @@ def _pop(values: dict[Value, Value], budget: Budget, key: Value, *default: Value
 
 
 _TEXT: Mapping[str, Method] = {
-    **_plain(
+    **_plain_methods(
         str, "capitalize", "count", "endswith", "find", "isdigit", "lower", "split", "startswith", "title", "upper"
     ),
     "format": _format,
@@ -258,8 +258,8 @@ _TEXT: Mapping[str, Method] = {
     "strip": _strip(str.strip),
     "zfill": _zfill,
 }
-_LIST: Mapping[str, Method] = {**_plain(list, "count", "index", "pop"), "append": _append, "extend": _extend}
-_DICT: Mapping[str, Method] = {**_plain(dict, "items", "keys", "values"), "get": _get, "pop": _pop}
+_LIST: Mapping[str, Method] = {**_plain_methods(list, "count", "index", "pop"), "append": _append, "extend": _extend}
+_DICT: Mapping[str, Method] = {**_plain_methods(dict, "items", "keys", "values"), "get": _get, "pop": _pop}
 METHODS: Mapping[type[Any], Mapping[str, Method]] = {
     str: _TEXT,
     list: _LIST,

@@ -139,7 +139,9 @@ class Sorter:
     def forget(self, names: Iterable[str]) -> None:
         """Leave out of the rest what somebody else takes."""
         gone = frozenset(names)
-        self.rest = [_with(extension, [e for e in extension.content if e.name not in gone]) for extension in self.rest]
+        self.rest = [
+            _refilled(extension, [e for e in extension.content if e.name not in gone]) for extension in self.rest
+        ]
 
     def sort(self, extension: GazeboExtension) -> None:
         """Take the content of an extension."""
@@ -165,7 +167,7 @@ class Sorter:
         # parser_urdf.cc, InsertSDFExtensionLink
         if (decay := self._read.pop(_DECAY, None)) is not None:
             rest.insert(0, _decayed(decay))
-        self.rest.append(_with(extension, rest))
+        self.rest.append(_refilled(extension, rest))
         sorted_out = ((self.misplaced, misplaced), (self.ignored, ignored), (self.without_use, without_use))
         for place, elements in sorted_out:
             if elements:
@@ -239,5 +241,5 @@ def _decayed(read: TagValue) -> Element:
     return read.element.copy(name="velocity_decay", attributes=(), text=None, children=parts)
 
 
-def _with(extension: GazeboExtension, content: list[Element]) -> GazeboExtension:
+def _refilled(extension: GazeboExtension, content: list[Element]) -> GazeboExtension:
     return extension.copy(content=tuple(content))

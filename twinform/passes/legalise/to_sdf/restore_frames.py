@@ -213,7 +213,7 @@ class _Restoring:
     def _joint(self, joint: Joint, graph: FrameGraph) -> Joint:
         base = self._base(joint.name, "joint")
         inside = self._rebasing(graph, joint.name, "joint", base).joint(joint)
-        ends = self._ends(joint, graph)
+        ends = self._frames_at_ends(joint, graph)
         usual = str(ends.get("child", joint.child or WORLD))
         pose = self._own_pose(joint, "joint", usual, graph)
         update: dict[str, object] = {**ends, "pose": pose}
@@ -221,7 +221,7 @@ class _Restoring:
             update[name] = self._axis(joint, name, graph)
         return without_annotation(inside.copy(**update), OFFSET, POSE, ENDS, *_AXES)
 
-    def _ends(self, joint: Joint, graph: FrameGraph) -> dict[str, object]:
+    def _frames_at_ends(self, joint: Joint, graph: FrameGraph) -> dict[str, object]:
         """The frames at the ends of a joint, as far as they still move with its links."""
         found = find_annotation(joint, ENDS)
         ends: dict[str, object] = {}
