@@ -32,7 +32,8 @@ def _commands(group: click.Group, above: tuple[str, ...]) -> Iterator[tuple[str,
 
 
 def _chapter(name: str, command: click.Command) -> str:
-    context = click.Context(command, info_name=name, max_content_width=_WIDTH, terminal_width=_WIDTH)
+    around = program.make_context("twinform", [], resilient_parsing=True)  # whose settings count in all commands
+    context = click.Context(command, around, name, max_content_width=_WIDTH, terminal_width=_WIDTH)
     usage = " ".join([name, *command.collect_usage_pieces(context)])
     records = (parameter.get_help_record(context) for parameter in command.get_params(context))
     options = "\n".join(f"| `{_cell(names)}` | {_cell(text)} |" for names, text in filter(None, records) if text)
