@@ -42,6 +42,8 @@ TURN = "turn"
 """The annotation on a joint with the orientation of its frame in the link that it moves."""
 LOOK_OF = "look-of"
 """The annotation on a visual with a digest of the color and material of its geom, by which edits are seen."""
+PART = "part"
+"""The annotation on the frame of a nested model with a part of it: `<tf:part kind="link" name="tip" as="tip_1"/>`."""
 Tagged = tuple[str, Mapping[str, str]]
 """The tag and the attributes of an element."""
 KINDS: Mapping[str, type[Node]] = {

@@ -8,6 +8,7 @@ from typing import TypeVar
 
 from twinform.compiler.input.mjcf.carried_texts import CarriedText, nodes_of, report_stale
 from twinform.compiler.input.mjcf.joined_joints import join_joints
+from twinform.compiler.input.mjcf.nested_back import is_nested_in, nested_back
 from twinform.compiler.input.mjcf.renamed_parts import name_in_file
 from twinform.compiler.input.mjcf.restore_contacts import kept_apart
 from twinform.compiler.input.mjcf.restore_loops import is_loop, loops_back
@@ -22,7 +23,14 @@ from twinform.compiler.input.mjcf.written_models import with_written_models, wit
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document, Frame, Joint, Link, Model, Node, World, replace_fields, rewrite
 from twinform.ir.frames import WORLD
-from twinform.passes.carriers.annotations import MADE_NAME, annotation, with_annotation, without_annotation
+from twinform.passes.carriers.annotations import (
+    MADE_NAME,
+    annotation,
+    find_annotation,
+    with_annotation,
+    without_annotation,
+)
+from twinform.passes.carriers.mjcf_texts import PART
 from twinform.passes.carriers.partial_nodes import WRITTEN, Merging, is_rest, written_name, written_names
 from twinform.passes.legalise.changed_names import fixed_joint_name
 from twinform.schemas import XmlElement
@@ -52,6 +60,8 @@ class _PartMerging:
         world = next((each for each in nodes_of(texts, "world") if isinstance(each, World)), None)
         back = sensors_back(links, joints, world, root, sink)
         self._world = back.world
+        frames = (each for each in nodes_of(texts, "frame") if isinstance(each, Frame))
+        self._nested = [each for each in frames if find_annotation(each, PART) is not None]
         self._merging = Merging(Spellings(root))
         self._parts = back.parts
         self._loops = [each for each in back.joints if is_loop(each)]
@@ -86,12 +96,15 @@ class _PartMerging:
         holds = tuple(_added_holds(model, fixed.values()))
         if isinstance(told, Model) and told.static is False and model.static:
             model = _held(model, {each.child for each in holds})
-        return replace_fields(
+        nested = [each for each in self._nested if is_nested_in(each, bodies)]
+        self._used.update(map(id, nested))
+        whole = replace_fields(
             self._merged(model),
             links=tuple(map(self._merged, model.links)),
             joints=(*(self._merged_joint(each, fixed, chains) for each in model.joints), *holds),
             frames=tuple(map(self._merged, model.frames)),
         )
+        return nested_back(whole, nested, bodies, self.sink) if nested else whole
 
     def in_document(self, document: Document) -> Document:
         """The document whose world has what a carrier holds of it; it is called as the file is."""
@@ -107,8 +120,8 @@ class _PartMerging:
         for each in self._merging.stale:
             message = f"a carrier holds a rest of {type(each).__name__.lower()} that belongs to nothing"
             report_stale(self.sink, message, each.source)
-        for each in (*self._partials.values(), *self._loops, *self._of_bodies.values()):
-            if isinstance(each, Link | Joint) and id(each) not in self._used:
+        for each in (*self._partials.values(), *self._loops, *self._of_bodies.values(), *self._nested):
+            if isinstance(each, Link | Joint | Frame) and id(each) not in self._used:
                 message = (
                     f"there is no {type(each).__name__.lower()} {each.name!r} any more, of which a carrier holds a part"
                 )

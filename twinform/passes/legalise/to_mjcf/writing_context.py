@@ -253,9 +253,11 @@ class MjcfContext:
     def wish(self, kind: str, scope: str, own: str) -> str:
         """The name that a part in a scope should have in MJCF: its own, with the names of the models around it.
 
-        What was read of one file of MJCF has its own names again.
+        What was read of one file of MJCF has its own names again, but for what is in nested models, which MJCF lacks.
         """
-        return own if self.is_of_mjcf and own not in self.names.get(kind, ()) else scope + own
+        in_model = scope.partition(SCOPE)[2] if isinstance(self.holder, World) else scope
+        wanted = in_model + own
+        return wanted if self.is_of_mjcf and wanted not in self.names.get(kind, ()) else scope + own
 
     def note_made_name(self, kind: str, part: Node, written: str | None, wish: str) -> None:
         """Note that a part is called so here alone, if it has no name in MJCF and gets it again where that is read.
