@@ -351,7 +351,10 @@ def _declared_names(namespaces: tuple[tuple[str | None, str], ...]) -> tuple[str
 
 
 def _attributes(attributes: Iterable[tuple[str, str]], names: _PrefixNames) -> str:
-    return "".join([f' {names[name]}="{in_attribute(value)}"' for name, value in dict(attributes).items()])
+    values = dict(attributes)
+    if _ODD_IN_ATTRIBUTE.search("".join(values.values())):  # hardly any, and to look at each takes twice as long
+        values = {name: in_attribute(value) for name, value in values.items()}
+    return "".join([f' {names[name]}="{value}"' for name, value in values.items()])
 
 
 def _with_attributes(attributes: str, added: Mapping[str, str]) -> str:

@@ -274,7 +274,9 @@ class MjcfContext:
         """
         if not wanted:
             return None
-        used = self.names.setdefault(kind, set(_RESERVED.get(kind, ())))
+        used = self.names.get(kind)
+        if used is None:
+            used = self.names[kind] = set(_RESERVED.get(kind, ()))
         made = wanted
         while made in used:
             # Where all links have a "visual", to count from one each time would take quadratic time.
