@@ -167,6 +167,8 @@ def _key(element: XmlElement) -> tuple[str, ...]:
     if element.tag == "geom":
         touches = (element.get("contype"), element.get("conaffinity")) != ("0", "0")
         return "geom", name, str(touches), element.get("type") or "sphere"
+    if element.tag == "light" and not name:  # SDF has those that follow nothing, before the others
+        return "light", name, element.get("mode") or ""
     parent = element.getparent()
     if parent is not None and parent.tag in _OF_PARTS and not name:
         return str(element.tag), *sorted(f"{each.attribute}={each.name}" for each in own_references(element))

@@ -31,6 +31,7 @@ from twinform.ir import (
     Opaque,
     Sensor,
     Visual,
+    World,
     map_references,
 )
 from twinform.ir.node import NOT_CONTENT
@@ -214,7 +215,7 @@ def _old_name(found: Element) -> str:
     return found.get("was") or found.text or ""
 
 
-def source_name(node: Link | Joint | Frame | Collision | Visual | Light | Sensor) -> str:
+def source_name(node: World | Model | Link | Joint | Frame | Collision | Visual | Light | Sensor) -> str:
     """The name that a part had in the source, where SDF could not have it: the annotated one, or else its own."""
     found = find_annotation(node, NAME)
     return _old_name(found) if found and found.get("instead_of") == node.name else node.name or ""
@@ -240,7 +241,7 @@ def old_name(old: str, name: str) -> Opaque:
 def _model_by_its_name(model: Model) -> Model:
     """The model with its annotated name restored, unless it was renamed since."""
     found = find_annotation(model, NAME)
-    if found is None:
+    if found is None or not _old_name(found):  # MJCF alone may call a model nothing
         return model
     model = without_annotation(model, NAME)
     return model.copy(name=_old_name(found)) if found.get("instead_of") == model.name else model

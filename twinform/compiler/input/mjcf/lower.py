@@ -27,6 +27,7 @@ from twinform.compiler.input.mjcf.remainders import RemainderKeeper, in_sections
 from twinform.compiler.input.mjcf.sections import Owners, Sections
 from twinform.compiler.resolve_uris import LocalAssets
 from twinform.ir import Document, Element, Format, Frame, Joint, Light, Link, Model, World
+from twinform.ir.frames import WORLD
 from twinform.passes.carriers.annotations import MADE_NAME, WORLDBODY, annotation, with_annotation
 from twinform.passes.carriers.carriers import NAMESPACE, PREFIX
 from twinform.passes.legalise.to_mjcf.actuator_efforts import Actuator, efforts
@@ -282,7 +283,8 @@ class FileLowering:
         )
 
     def _frames(self, taken: set[str]) -> Iterable[Frame]:
-        """Yield the sites of the world, called otherwise than what else is in it."""
+        """Yield the sites of the world, called otherwise than what else is in it and than the world itself."""
+        taken |= {WORLD}
         for site in self.sections.inside(WORLDBODY):
             if site.tag == "site" and site.name is not None:
                 name = site.take("name") or ""

@@ -135,9 +135,10 @@ class GeomLowering(NamedTuple):
 
     def _report_bright(self, geom: Piece) -> None:
         """Enter a color beyond white, or below black, into the ledger: MuJoCo takes it, and SDF has none."""
-        if not all(0.0 <= each <= 1.0 for each in geom.peek_numbers("rgba") or ()):
-            message = f"the color {geom.peek('rgba')} is cut to what SDF has, 0 to 1"
-            self.keeper.approximate(message, geom.location.at("@rgba"))
+        colored = geom if geom.has("rgba") else self.assets.find("material", geom.peek("material"))
+        if colored is not None and not all(0.0 <= each <= 1.0 for each in colored.peek_numbers("rgba") or ()):
+            message = f"the color {colored.peek('rgba')} is cut to what SDF has, 0 to 1"
+            self.keeper.approximate(message, colored.location.at("@rgba"))
 
     def _collision(self, one: _Named) -> Collision:
         return Collision.unchecked(

@@ -8,6 +8,7 @@ from twinform.ir import Document, Element, Format, Model, Opaque, World
 from twinform.ir.frames import FrameError
 from twinform.passes.carriers.carriers import Keeper
 from twinform.passes.framework.pass_base import AssetPass
+from twinform.passes.legalise.changed_names import source_name
 from twinform.passes.legalise.to_mjcf.actuator_efforts import settle_efforts
 from twinform.passes.legalise.to_mjcf.bodies import body_elements
 from twinform.passes.legalise.to_mjcf.contacts import add_contacts
@@ -77,7 +78,7 @@ class WriteMjcf(AssetPass):
         except FrameError as error:
             error.report(sink)
             return document
-        parts = [] if is_named_by_file(context) else [Opaque.unchecked(attribute=("model", holder.name))]
+        parts = [] if is_named_by_file(context) else [Opaque.unchecked(attribute=("model", source_name(holder)))]
         parts += [Opaque.unchecked(element=each) for each in _in_order(context)]
         return Document.unchecked(format=Format.MJCF, opaque=tuple(parts), source=document.source)
 
