@@ -25,6 +25,7 @@ from twinform.ir import (
     Node,
     Opaque,
     Pose,
+    Sensor,
     Surface,
     Visual,
 )
@@ -81,6 +82,8 @@ class Spellings:
             made = _with_reference(node, partial)
         elif isinstance(node, Limit) and isinstance(partial, Limit):
             made = _with_ends(node, partial), partial
+        elif isinstance(node, Sensor) and isinstance(partial, Sensor):
+            made = _with_contacts(node, partial)
         elif isinstance(node, Inertial) and isinstance(partial, Inertial):
             made = _with_axes(node, partial), without_annotation(partial, AXES)
         return cast("tuple[AnyNode, AnyNode]", made)
@@ -109,6 +112,16 @@ class Spellings:
     def _asset(self, tag: str, name: str) -> list[Tagged]:
         found = self._assets.get((tag, name))
         return [] if found is None else [(str(each.tag), _attributes(each)) for each in found.iter()]
+
+
+def _with_contacts(node: Sensor, partial: Sensor) -> tuple[Sensor, Sensor]:
+    """The contacts of which a sensor told, if any of these collisions is there; one of MJCF tells of all."""
+    told, read = untyped(partial, "contact"), untyped(node, "contact")
+    if told is None or read is None:
+        return node, partial
+    is_there = not {each.text for each in told.children}.isdisjoint(each.text for each in read.children)
+    contact = {"contact"}
+    return (without_elements(node, contact), partial) if is_there else (node, without_elements(partial, contact))
 
 
 def _attributes(element: XmlElement) -> dict[str, str]:

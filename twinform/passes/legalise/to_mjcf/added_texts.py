@@ -49,6 +49,7 @@ from twinform.passes.legalise.to_mjcf.nested_texts import nested_frames
 from twinform.passes.legalise.to_mjcf.options import SETTINGS, has_usual_settings
 from twinform.passes.legalise.to_mjcf.said_parts import without_elements
 from twinform.passes.legalise.to_mjcf.text_list import TextList
+from twinform.passes.legalise.to_mjcf.writing_context import KeptSensor, MjcfContext
 
 _MASKS = frozenset(f"contact/{each}" for each in MASKS)
 _OF_CONSTRAINTS = frozenset({"ball", "fixed"})
@@ -63,12 +64,12 @@ class AddedTexts(TextList):
         model, hidden = self.file.flat, self.file.hidden
         are_bits_usual = self.context.contacts.are_usual  # a file with no others has no masks
         links = [
-            self._without_seen(_as_mjcf_has_link(each, has_masks=not are_bits_usual))
+            self._without_seen(_as_mjcf_has_link(each, self.context, has_masks=not are_bits_usual))
             for each in model.links
             if each.name not in hidden
         ]
         joints = [each.copy(child=None) if each.child in hidden else each for each in model.joints]
-        joints = [_as_mjcf_has_it(each) for each in joints if not self._is_constraint(each)]
+        joints = [_as_mjcf_has_it(each, self.context) for each in joints if not self._is_constraint(each)]
         models = FileModels(self.context)
         for part in holder_partials(self.context, self.file, models):
             self.add_text(*part)
@@ -145,7 +146,7 @@ class AddedTexts(TextList):
     def _is_needless(self, left: Node, node: Node) -> bool:
         """Whether what is left of a node says nothing: notes alone that tell of no name, no URI and no chain."""
         is_chain = isinstance(node, Joint) and node.type in CHAINS and node.type != "ball"
-        return is_bare(self._without_what_names(left, node)) and not (is_chain or _tells_of_shapes(left))
+        return is_bare(self._without_what_names(left, node)) and not (is_chain or _tells_of_names(left))
 
     def _without_what_names(self, left: Node, node: Node) -> Node:
         """What is left of a node, without what a fixed joint is known by if it is read with the name that it has."""
@@ -194,6 +195,8 @@ class AddedTexts(TextList):
             return (*written, *notes)
         if isinstance(node, Joint) and (node.name in self.file.closing or node.type in CHAINS):
             return tuple(self._notes_of_several(node))
+        if isinstance(node, Sensor) and (read := self.context.kept_sensors.get(id(node.source))) is not None:
+            return () if read.name == node.name else (annotation(WRITTEN, attributes={"as": read.name}),)
         if isinstance(node, Light) or (isinstance(node, Sensor) and self.what.left_of(node) is not None):
             parts = self.file.parts_of(node)
             self.context.unnamed.difference_update((each.name, each.get("name") or "") for each in parts)
@@ -215,11 +218,11 @@ def _has_uri(shape: Visual | Collision) -> bool:
     return isinstance(found, Mesh) and "://" in (found.uri or "")
 
 
-def _tells_of_shapes(left: Node) -> bool:
-    """Whether what is left of a node has a note of a file, or of a shape, that is named otherwise than in MJCF."""
+def _tells_of_names(left: Node) -> bool:
+    """Whether what is left of a node has a note of a file, shape or sensor that is named otherwise than in MJCF."""
     return any(
         find_annotation(each, SHAPE_OF) is not None
-        or (isinstance(each, Visual | Collision) and find_annotation(each, WRITTEN) is not None)
+        or (isinstance(each, Visual | Collision | Sensor) and find_annotation(each, WRITTEN) is not None)
         for each in walk(left)
     )
 
@@ -235,11 +238,11 @@ def _without_what_file_has(part: Link | Joint) -> Link | Joint:
     return bare.copy(lights=part.lights) if isinstance(part, Link) and part.lights else bare
 
 
-def _as_mjcf_has_link(link: Link, *, has_masks: bool) -> Link:
+def _as_mjcf_has_link(link: Link, context: MjcfContext, *, has_masks: bool) -> Link:
     """A link without what geoms and bodies say of it, and what sensors are read with."""
     return link.copy(
         collisions=tuple(_as_mjcf_has_collision(each, has_masks=has_masks) for each in link.collisions),
-        sensors=_unread_sensors(link.sensors),
+        sensors=_unread_sensors(link.sensors, context),
         lights=tuple(left for each in link.lights if (left := unread_light(each)) is not None),
         inertial=None if weight_of(link).is_nothing else link.inertial,
         kinematic=None if _is_mocap(link) else link.kinematic,
@@ -256,33 +259,37 @@ def _as_mjcf_has_collision(collision: Collision, *, has_masks: bool) -> Collisio
     return collision.copy(surface=surface.copy(mu2=None) if surface.mu2 == surface.mu else surface)
 
 
-def _as_mjcf_has_it(joint: Joint) -> Joint:
+def _as_mjcf_has_it(joint: Joint, context: MjcfContext) -> Joint:
     """A joint without sensors, and without the axis of a ball, which is there for its damping alone."""
     axis = joint.axis.copy(xyz=None) if joint.axis and joint.type == "ball" else joint.axis
-    return joint.copy(sensors=_unread_sensors(joint.sensors), axis=axis)
+    return joint.copy(sensors=_unread_sensors(joint.sensors, context), axis=axis)
 
 
-def _unread_sensors(sensors: Iterable[Sensor]) -> tuple[Sensor, ...]:
+def _unread_sensors(sensors: Iterable[Sensor], context: MjcfContext) -> tuple[Sensor, ...]:
     """The sensors of which a file of MJCF leaves something unsaid."""
-    return tuple(left for each in sensors if (left := _unread(each)) is not None)
+    found = (_unread(each, context.kept_sensors.get(id(each.source))) for each in sensors)
+    return tuple(left for left in found if left is not None)
 
 
-def _unread(sensor: Sensor) -> Sensor | None:
-    """What a file of MJCF leaves unsaid of a sensor, without a type where readings stand for it; None for nothing."""
-    has_readings = any(each.name == "sensor" for each in kept_elements(sensor))
-    opaque = tuple(part for part in sensor.opaque if not (is_of_mjcf(part) or _is_read(part.element, has_readings)))
+def _unread(sensor: Sensor, read: KeptSensor | None) -> Sensor | None:
+    """What a file of MJCF leaves unsaid of a sensor, without a type where readings stand for it; None for nothing.
+
+    `read` is how it is read of the readings that it keeps.
+    """
+    opaque = tuple(part for part in sensor.opaque if not (is_of_mjcf(part) or _is_read(part.element, read)))
     bare = sensor.copy(type=None, pose=None, opaque=opaque)
-    if (has_readings or sensor.type == "camera") and bare == Sensor.unchecked(name=sensor.name):
+    is_read = read.name == sensor.name if read is not None else sensor.type == "camera"
+    if is_read and bare == Sensor.unchecked(name=sensor.name):
         return None
-    return bare if has_readings else sensor
+    return sensor if read is None else bare
 
 
-def _is_read(element: Element | None, has_readings: bool) -> bool:
+def _is_read(element: Element | None, read: KeptSensor | None) -> bool:
     """Whether parameters of a sensor are those that sensors of MJCF are read with."""
     if element is None:
         return False
-    if has_readings:
-        return element.name in _PARAMETERS
+    if read is not None:
+        return element.name in _PARAMETERS and (element.name != "contact" or read.has_same_contacts)
     return element.name == "camera" and {each.name for each in element.walk()} <= _OF_CAMERAS
 
 

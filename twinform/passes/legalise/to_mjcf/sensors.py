@@ -9,7 +9,7 @@ from twinform.ir import Element, Sensor
 from twinform.ir.kinematic_tree import JointBetween
 from twinform.ir.transform import Transform
 from twinform.passes.legalise.to_mjcf.cameras import camera_element
-from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements
+from twinform.passes.legalise.to_mjcf.kept_readings import add_kept_readings
 from twinform.passes.legalise.to_mjcf.rangefinders import MOST_RAYS, rangefinder_parts
 from twinform.passes.legalise.to_mjcf.said_parts import untyped
 from twinform.passes.legalise.to_mjcf.sensor_parts import SensorParts, reading
@@ -28,25 +28,16 @@ def body_sensors(context: MjcfContext, body: Body) -> list[Element]:
     """The sites and cameras of a body, for the sensors of its link."""
     found: list[Element] = []
     for sensor in body.link.sensors:
-        if not _add_kept(context, sensor, body):
+        if not add_kept_readings(context, sensor, body):
             found += _written(context, sensor, _link_sensor(context, sensor, body))
     return found
-
-
-def _add_kept(context: MjcfContext, sensor: Sensor, body: Body) -> bool:
-    """Add the readings that a sensor keeps of the file of MJCF that it was read from, whose site is a frame now."""
-    kept = [reading for each in kept_elements(sensor) if each.name == "sensor" for reading in each.children]
-    context.kept_readings += [(body.scope, each) for each in kept]
-    if kept:
-        context.kept_sensors.add(id(sensor.source))
-    return bool(kept)
 
 
 def joint_sensors(context: MjcfContext, body: Body, held_by: JointBetween) -> list[Element]:
     """The sites for sensors on a joint, in the body that it holds."""
     found: list[Element] = []
     for sensor in held_by.joint.sensors:
-        if not _add_kept(context, sensor, body) and sensor.type == "force_torque":
+        if not add_kept_readings(context, sensor, body, held_by) and sensor.type == "force_torque":
             site = _site_name(context, sensor, body)
             found += _written(context, sensor, wrench_parts(context, sensor, site, held_by, body))
     return found

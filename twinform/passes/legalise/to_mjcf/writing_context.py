@@ -55,6 +55,13 @@ class Body(NamedTuple):
     moves: bool
 
 
+class KeptSensor(NamedTuple):
+    """How a sensor with kept readings is read: its name, and whether it tells of the same contacts."""
+
+    name: str
+    has_same_contacts: bool
+
+
 class ScopedFrame(NamedTuple):
     """A named frame, and its name in the outermost scope."""
 
@@ -86,7 +93,7 @@ class MjcfContext:
         unnamed: kinds and names that parts have here alone, since they have none in MJCF.
         left: nodes whose untyped elements MJCF says in part, by identity, each with what MJCF leaves of it.
         kept_readings: the readings that sensors keep, each with the prefix of the names in it.
-        kept_sensors: the sensors with such readings, by the identities of their sources.
+        kept_sensors: what is read of sensors with such readings, by the identities of their sources.
         files: `asset` elements by what they are made of, so that equal ones are shared.
         colors_of_files: the colors that mesh files give themselves, by their URIs.
         sections: what stands outside of `worldbody`, by the name of the section, in the order in which it was added.
@@ -111,7 +118,7 @@ class MjcfContext:
     unnamed: set[tuple[str, str]] = field(default_factory=set[tuple[str, str]])
     left: dict[int, tuple[Node, Node]] = field(default_factory=dict[int, tuple[Node, Node]])
     kept_readings: list[tuple[str, Element]] = field(default_factory=list[tuple[str, Element]])
-    kept_sensors: set[int] = field(default_factory=set[int])
+    kept_sensors: dict[int, KeptSensor] = field(default_factory=dict[int, KeptSensor])
     files: dict[object, str | None] = field(default_factory=dict[object, str | None])
     colors_of_files: dict[str, Rgba | Several | None] = field(default_factory=dict[str, Rgba | Several | None])
     sections: dict[str, list[Element]] = field(default_factory=lambda: defaultdict(list))

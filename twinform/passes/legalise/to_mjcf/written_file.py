@@ -122,7 +122,7 @@ class WrittenFile:
         sites = {each.get("site") or each.get("objname") for each in readings}
         places = [
             *self._shown.get(id(part.source), ()),
-            *(place for name in sites for place in self._sites.get(name, ())),
+            *(place for name in sites if name is not None for place in self._sites.get(name, ())),
         ]
         return [*readings, *(self._in_bodies[place] for place in sorted(places))]
 
