@@ -139,7 +139,7 @@ def _fold_model(model: Model, sink: DiagnosticSink) -> Model:
             gone[link.name] = {each.name or "": () for each in link.collisions if each.name not in kept}
         folded = replace_fields(link, visuals=visuals, collisions=collisions)
         links.append(map_sensors(folded, gone.get(link.name, {})))
-    # A contact sensor names the capsule, which has the name of its middle. It may be on another link that is fixed there.
+    # A contact sensor names the capsule, which has the name of its middle. A link that is fixed there may have it.
     there = {each.name for link in links for each in link.collisions}
     beside = {name: () for names in gone.values() for name in names if name not in there}
     extensions = tuple(map_touched(each, {**beside, **gone.get(each.reference, {})}) for each in model.extensions)
