@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from testbed.mjcf.canonical_models import body_inertias, canonical, differences, load_canonical
-from twinform.compiler.input.mjcf.references import own_references
+from twinform.schemas.mjcf_references import own_references
 from twinform.compiler.normal_form import NormalForm
 from twinform.schemas import XmlElement
 

@@ -5,9 +5,9 @@ Each kind has names of its own in the whole model: a body and a joint may share 
 
 from collections.abc import Iterator
 
-from twinform.compiler.input.mjcf.references import kind_of_object, kind_of_tag
 from twinform.diagnostics import Span
 from twinform.lazy import lazy_pattern
+from twinform.schemas.mjcf_references import kind_of_object, kind_of_tag
 from twinform.server.mapping import MappingRow
 from twinform.server.names import Name
 from twinform.server.tolerant_tree import TolerantNode

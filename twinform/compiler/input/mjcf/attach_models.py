@@ -20,10 +20,10 @@ from twinform.compiler.input.mjcf.element_findings import TURN, ElementFindings,
 from twinform.compiler.input.mjcf.expand_frames import add_to_names, expand_frames
 from twinform.compiler.input.mjcf.merge_settings import merge_settings
 from twinform.compiler.input.mjcf.model_files import CanonicalModel, ModelFiles
-from twinform.compiler.input.mjcf.references import ASSET_KINDS, kind_of, names_in, references_in, rename
 from twinform.dataclass import dataclass
 from twinform.diagnostics import rules
 from twinform.schemas import XmlElement
+from twinform.schemas.mjcf_references import ASSET_KINDS, kind_of, names_in, references_in, rename
 
 _SECTIONS = ("contact", "deformable", "tendon", "equality", "actuator", "sensor", "custom")
 """The sections that come with what their elements refer to, each behind those that it may refer to."""

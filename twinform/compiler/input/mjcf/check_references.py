@@ -3,9 +3,9 @@
 from collections.abc import Collection, Iterator, Mapping
 
 from twinform.compiler.input.mjcf.element_findings import ElementFindings
-from twinform.compiler.input.mjcf.references import ASSET_KINDS, KINDS, SECTION_KINDS, kind_of, own_references
 from twinform.diagnostics import nearest_name, rules
 from twinform.schemas import XmlElement
+from twinform.schemas.mjcf_references import ASSET_KINDS, KINDS, SECTION_KINDS, kind_of, own_references
 
 _WORLD = "world"
 _WORDS = {"geom": "geom", "hfield": "height field", "key": "keyframe", "exclude": "excluded pair"}

@@ -9,8 +9,8 @@ from copy import deepcopy
 
 from twinform.compiler.input.mjcf.copy_budget import CopyBudget, weight_of_tree
 from twinform.compiler.input.mjcf.element_findings import TURN, ElementFindings
-from twinform.compiler.input.mjcf.references import KINDS, own_references, references_in, rename
 from twinform.schemas import XmlElement
+from twinform.schemas.mjcf_references import KINDS, own_references, references_in, rename
 
 _SECTIONS = ("contact", "tendon", "equality", "actuator", "sensor", "custom")
 """The sections whose elements are copied with what they refer to, each behind those that it may refer to."""

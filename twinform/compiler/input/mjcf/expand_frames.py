@@ -25,9 +25,9 @@ from twinform.compiler.input.mjcf.quaternions import (
     rotate,
     unit,
 )
-from twinform.compiler.input.mjcf.references import KINDS, names_in, rename
 from twinform.diagnostics import rules
 from twinform.schemas import XmlElement
+from twinform.schemas.mjcf_references import KINDS, names_in, rename
 
 _POSED = frozenset({"body", "geom", "site", "camera", "frame", "flexcomp", "attach"})
 _BEFORE = etree.XPath("preceding::*/@name | ancestor::*/@name")

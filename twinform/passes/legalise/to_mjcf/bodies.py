@@ -13,7 +13,6 @@ from twinform.ir.frames import WORLD
 from twinform.ir.kinematic_tree import JointBetween
 from twinform.passes.carriers.annotations import MADE_NAME, WORLDBODY, find_annotation, is_synthesized
 from twinform.passes.carriers.joint_chains import part_of
-from twinform.passes.legalise.changed_names import source_name
 from twinform.passes.legalise.to_mjcf.elements import make_element, placement
 from twinform.passes.legalise.to_mjcf.geoms import geom_elements
 from twinform.passes.legalise.to_mjcf.inertials import has_usual_weight, inertial_elements, report_weightless, weight_of
@@ -122,7 +121,7 @@ class _BodyTree:
 
     def _body(self, name: str, hold: Hold, above: dict[str, Body]) -> Body:
         link = self.tree.links[name]
-        own = source_name(link)
+        own = self.context.old_name("body", scope_of(name), link)
         # Of a URDF with nothing but a link `world` MJCF has the name that SDF has: the world itself has the other.
         wish = self.context.wish("body", scope_of(name), link.name if own == WORLD else own)
         written = WORLD if name == self.world else self.context.name("body", wish, link) or name

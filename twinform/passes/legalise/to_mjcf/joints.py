@@ -16,7 +16,6 @@ from twinform.ir.kinematic_tree import JointBetween
 from twinform.ir.node import Vector3
 from twinform.ir.transform import Transform, rounded
 from twinform.passes.carriers.joint_chains import CHAINS, TWO_AXES, metres_per_radian
-from twinform.passes.legalise.changed_names import source_name
 from twinform.passes.legalise.to_mjcf.elements import Value, make_element, position
 from twinform.passes.legalise.to_mjcf.kept_mjcf import with_kept_joint
 from twinform.passes.legalise.to_mjcf.writing_context import Body, MjcfContext, scope_of
@@ -63,7 +62,7 @@ def _elements(context: MjcfContext, body: Body, between: JointBetween) -> Iterat
     if joint.type in TWO_AXES:
         yield from _two_axes(context, body, between, at)
         return
-    name = _name(context, between, context.wish("joint", scope_of(between.name), source_name(joint)))
+    name = _name(context, between, _wish(context, between))
     context.written_joints[between.name] = (name,)
     context.note_made_name("joint", joint, name, f"{body.link.name}_joint")  # one that was fixed is called otherwise
     element = _element(context, body, between, at, joint.axis, name)
@@ -74,7 +73,7 @@ def _two_axes(context: MjcfContext, body: Body, between: JointBetween, at: Trans
     """Yield two hinges: the first axis turns with the parent, and the second with the child."""
     joint = between.joint
     suffix = CHAINS[joint.type][0]
-    wish = context.wish("joint", scope_of(between.name), source_name(joint))
+    wish = _wish(context, between)
     names = (_name(context, between, f"{wish}_{suffix}"), _name(context, between, wish))
     context.written_joints[between.name] = names
     yield _element(context, body, between, at, joint.axis, names[0])
@@ -91,7 +90,7 @@ def _screw(context: MjcfContext, body: Body, between: JointBetween, at: Transfor
         context.sink.report(rules.JOINT_TYPE_UNSUPPORTED, message, joint.location, found="screw", help=help_)
         return
     suffix = CHAINS["screw"][0]
-    wish = context.wish("joint", scope_of(between.name), source_name(joint))
+    wish = _wish(context, between)
     slide, turn = _name(context, between, f"{wish}_{suffix}"), _name(context, between, wish)
     context.written_joints[between.name], context.written_slides[between.name] = (turn,), slide
     along = Axis.unchecked(xyz=joint.axis.xyz, expressed_in=joint.axis.expressed_in) if joint.axis else None
@@ -101,6 +100,11 @@ def _screw(context: MjcfContext, body: Body, between: JointBetween, at: Transfor
     context.approximate(rules.JOINT_CHAIN, message, joint.location)
     polynomial = (0.0, pitch, 0.0, 0.0, 0.0)
     context.add("equality", make_element("joint", [("joint1", slide), ("joint2", turn), ("polycoef", polynomial)]))
+
+
+def _wish(context: MjcfContext, between: JointBetween) -> str:
+    scope = scope_of(between.name)
+    return context.wish("joint", scope, context.old_name("joint", scope, between.joint))
 
 
 def _name(context: MjcfContext, between: JointBetween, wanted: str) -> str:

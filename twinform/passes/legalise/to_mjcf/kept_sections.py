@@ -4,15 +4,13 @@ A model of SDF that was read of MJCF keeps `<tf:mjcf><actuator><motor joint="hip
 was given actuators by a pass does too. In a world with several models the joint is called otherwise in MJCF.
 """
 
-from collections.abc import Container, Mapping
+from collections.abc import Mapping
 
-from twinform.diagnostics import Fate, rules
-from twinform.ir import Element, Model, World
-from twinform.ir.frames import WORLD
+from twinform.ir import Element
 from twinform.ir.scopes import SCOPE
 from twinform.passes.legalise.to_mjcf.assets import file_path
 from twinform.passes.legalise.to_mjcf.kept_mjcf import KNOWN, NO_SECTION, SINGLE, kept_elements, merged
-from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext
+from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext, scope_of
 from twinform.passes.shared.document_uris import FILES_OF_MJCF
 from twinform.schemas.facts import named_kinds
 
@@ -20,12 +18,6 @@ _RENAMED = frozenset({"joint", "body", "site"})
 """The kinds of parts that may have another name in MJCF than where they were kept."""
 _BY_TYPE: Mapping[str, str] = {"objname": "objtype", "refname": "reftype"}
 """Attributes that name a part whose kind stands in another one."""
-
-
-_MAKERS = frozenset({"composite", "flexcomp"})
-"""Elements of which MuJoCo makes bodies with names of its own."""
-_ABOUT_PARTS = frozenset({"actuator", "contact", "equality", "sensor"})
-"""Sections whose elements are about what they name, and are nothing without that."""
 
 
 class _Names:
@@ -46,22 +38,24 @@ class _Names:
                 self._scoped[kind, written] = written
                 key = (kind, written.rpartition(SCOPE)[2])
                 self._alone[key] = None if key in self._alone else written
+        for (kind, name), now in context.former_names.items():
+            written = kinds[kind].get(scope_of(name) + now)
+            if written is not None:
+                self._scoped.setdefault((kind, name), written)
 
     def of(self, kind: str, scope: str, name: str) -> str:
         """The name in MJCF of a part that is called so in a scope."""
         return self._scoped.get((kind, scope + name)) or self._alone.get((kind, name)) or name
 
 
-def add_kept_sections(context: MjcfContext) -> None:
-    """Add what the holder and all models in it keep. All other sections are complete."""
+def add_kept_sections(context: MjcfContext) -> bool:
+    """Add what the holder and all models in it keep, and tell whether that is anything.
+
+    All other sections are complete.
+    """
     inner = [(scope, each) for scope, each in context.models if each is not context.holder]
     names, sections = _Names(context), _Sections(context)
     holders = (("", context.holder), *inner)
-    kept_scene = (kept for _, each in holders for kept in kept_elements(each) if kept.name == "worldbody")
-    scene = (*context.sections.get("worldbody", ()), *kept_scene)
-    parts = [part for element in scene for part in element.walk()]
-    there = {("joint" if part.name == "freejoint" else part.name, part.get("name")) for part in parts}
-    makes_others = any(part.name in _MAKERS for part in parts)
     for scope, each in holders:
         for kept in kept_elements(each):
             if kept.name in SINGLE:
@@ -72,25 +66,10 @@ def add_kept_sections(context: MjcfContext) -> None:
                 continue
             for part in kept.children:
                 renamed = _renamed(part, names, scope)
-                if kept.name in _ABOUT_PARTS and not makes_others and (gone := _gone(renamed, there)):
-                    _report_stale(context, renamed, gone, each)
-                    continue
                 sections.add(kept.name, _with_paths(context, renamed) if kept.name == "asset" else renamed)
     for scope, reading in context.kept_readings:
         sections.add("sensor", _renamed(reading, names, scope))
-
-
-def _gone(part: Element, there: Container[tuple[str, str | None]]) -> str | None:
-    """The body, joint or site that an element names and that is not there any more, such as `joint 'hip'`."""
-    named = ((kind, value) for key, value in part.attributes if (kind := _kind(part, key)))
-    return next((f"{kind} {value!r}" for kind, value in named if value != WORLD and (kind, value) not in there), None)
-
-
-def _report_stale(context: MjcfContext, part: Element, gone: str, holder: Model | World) -> None:
-    where = holder.location
-    message = f"<{part.name}> {part.get('name') or ''} is kept for {gone}, which is not there any more"
-    context.sink.account(Fate.DROPPED, rules.STALE_CARRIER, message, where, 1)
-    context.sink.report(rules.STALE_CARRIER, message, where, found=gone)
+    return bool(context.kept_readings) or any(kept_elements(each) for _, each in holders)
 
 
 class _Sections:

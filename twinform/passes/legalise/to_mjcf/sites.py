@@ -3,7 +3,6 @@
 from twinform.ir import Element, Frame
 from twinform.ir.frames import WORLD
 from twinform.ir.transform import Transform
-from twinform.passes.legalise.changed_names import source_name
 from twinform.passes.legalise.to_mjcf.elements import Value, make_element, placement
 from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements, with_kept
 from twinform.passes.legalise.to_mjcf.materials import with_known_material
@@ -36,7 +35,7 @@ def _frame_site(context: MjcfContext, scoped: ScopedFrame, link: str | None) -> 
 
 def _name(context: MjcfContext, name: str, frame: Frame) -> str:
     """The name that a frame had in its source, unless that is the name of another frame here."""
-    wanted = context.wish("site", scope_of(name), source_name(frame))
+    wanted = context.wish("site", scope_of(name), context.old_name("site", scope_of(name), frame))
     taken = context.names.setdefault("site", set())
     if wanted in taken:
         return name

@@ -12,6 +12,7 @@ from twinform.passes.legalise.changed_names import source_name
 from twinform.passes.legalise.to_mjcf.actuator_efforts import settle_efforts
 from twinform.passes.legalise.to_mjcf.bodies import body_elements
 from twinform.passes.legalise.to_mjcf.contacts import add_contacts
+from twinform.passes.legalise.to_mjcf.dangling_parts import drop_dangling_parts
 from twinform.passes.legalise.to_mjcf.elements import make_element
 from twinform.passes.legalise.to_mjcf.equalities import add_equalities
 from twinform.passes.legalise.to_mjcf.file_models import is_named_by_file
@@ -108,7 +109,8 @@ def _write_sections(context: MjcfContext) -> None:
     add_gearboxes(context)
     add_equalities(context)
     add_contacts(context)
-    add_kept_sections(context)
+    if add_kept_sections(context):
+        drop_dangling_parts(context)
     settle_efforts(context)
     add_texts(context)
     remove_made_names(context)

@@ -16,6 +16,7 @@ from twinform.ir import (
     Document,
     Element,
     Frame,
+    Joint,
     Link,
     Model,
     Node,
@@ -31,6 +32,7 @@ from twinform.ir.transform import Transform
 from twinform.passes.carriers.annotations import MADE_NAME, find_annotation
 from twinform.passes.carriers.carriers import Keeper
 from twinform.passes.framework.assets import NO_ASSETS, Assets
+from twinform.passes.legalise.changed_names import source_name
 from twinform.passes.legalise.to_mjcf.contact_plan import ContactPlan
 from twinform.passes.legalise.to_mjcf.friction import Friction, friction_priorities
 from twinform.passes.legalise.to_mjcf.kept_mjcf import ROOT, kept_elements
@@ -91,6 +93,7 @@ class MjcfContext:
         written_sites: the names of the sites of frames, by the scoped names of these.
         written_geoms: for each visual or collision, by its identity, the name of its geom.
         unnamed: kinds and names that parts have here alone, since they have none in MJCF.
+        former_names: the names that parts have in SDF, by their kinds and the scoped names that they had before.
         left: nodes whose untyped elements MJCF says in part, by identity, each with what MJCF leaves of it.
         kept_readings: the readings that sensors keep, each with the prefix of the names in it.
         kept_sensors: what is read of sensors with such readings, by the identities of their sources.
@@ -116,6 +119,7 @@ class MjcfContext:
     written_sites: dict[str, str] = field(default_factory=dict[str, str])
     written_geoms: dict[int, str] = field(default_factory=dict[int, str])
     unnamed: set[tuple[str, str]] = field(default_factory=set[tuple[str, str]])
+    former_names: dict[tuple[str, str], str] = field(default_factory=dict[tuple[str, str], str])
     left: dict[int, tuple[Node, Node]] = field(default_factory=dict[int, tuple[Node, Node]])
     kept_readings: list[tuple[str, Element]] = field(default_factory=list[tuple[str, Element]])
     kept_sensors: dict[int, KeptSensor] = field(default_factory=dict[int, KeptSensor])
@@ -266,6 +270,31 @@ class MjcfContext:
         wanted = in_model + own
         return wanted if self.is_of_mjcf and wanted not in self.names.get(kind, ()) else scope + own
 
+    def old_name(self, kind: str, scope: str, part: Link | Joint | Frame) -> str:
+        """The name that a part of a scope had where SDF could not have it; its own where it would not come back so.
+
+        What was read of MJCF was called otherwise because another part has its name, or because SDF refuses that.
+        """
+        old = source_name(part)
+        if old == part.name or not self.is_of_mjcf:
+            return old
+        if _is_plain(old) and old not in self._names_by_scope.get(scope, ()):
+            self.former_names[kind, scope + old] = part.name
+            return part.name
+        return old
+
+    @cached_property
+    def _names_by_scope(self) -> Mapping[str, frozenset[str]]:
+        """The names of links, joints and frames that each model has, by its scope."""
+        found = {
+            scope: frozenset(each.name for part in (model.links, model.joints, model.frames) for each in part)
+            for scope, model in self.models
+        }
+        if isinstance(self.holder, World):
+            parts = (self.holder.models, self.holder.frames, self.holder.lights)
+            found[""] = frozenset(each.name or "" for part in parts for each in part)
+        return found
+
     def note_made_name(self, kind: str, part: Node, written: str | None, wish: str) -> None:
         """Note that a part is called so here alone, if it has no name in MJCF and gets it again where that is read.
 
@@ -349,6 +378,11 @@ class MjcfContext:
 
 
 _IDENTITY = Transform()
+
+
+def _is_plain(name: str) -> bool:
+    """Whether SDF may have a name."""
+    return SCOPE not in name and name == name.strip() and name != WORLD and not name.startswith("__")
 
 
 def is_made_name(node: Node, wish: str = "") -> bool:

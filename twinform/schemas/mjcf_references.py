@@ -82,20 +82,25 @@ def references_in(element: XmlElement, kinds: Iterable[str] | None = None) -> It
 
 def own_references(element: XmlElement) -> Iterator[Reference]:
     """Yield the references of one element."""
+    attributes = {str(key): str(value) for key, value in element.items()}
+    for key, kind in naming_attributes(str(element.tag), attributes):
+        yield Reference(element, key, kind, attributes[key])
+
+
+def naming_attributes(tag: str, attributes: Mapping[str, str]) -> Iterator[tuple[str, str]]:
+    """Yield the attributes of an element that name another one, each with the kind of that."""
     kinds = named_kinds("mjcf")
-    for key, value in element.items():
-        name = str(key)
+    for name, value in attributes.items():
         kind = kinds.get(name)
         if name in _OF_OBJECT:
-            said = element.get(_OF_OBJECT[name], "")
-            kind = kind_of_object(said)
-        if kind and kind not in _NO_PARTS and value and not _is_list(element, name):
-            yield Reference(element, name, kind, str(value))
+            kind = kind_of_object(attributes.get(_OF_OBJECT[name], ""))
+        if kind and kind not in _NO_PARTS and value and not _is_list(tag, name):
+            yield name, kind
 
 
-def _is_list(element: XmlElement, name: str) -> bool:
+def _is_list(tag: str, name: str) -> bool:
     """Whether an attribute that is called as a reference is a list of names."""
-    return element.tag == "flex" and name in {"body", "node"}
+    return tag == "flex" and name in {"body", "node"}
 
 
 def names_in(elements: Iterable[XmlElement]) -> dict[str, set[str]]:

@@ -1,0 +1,100 @@
+"""Kept elements of MJCF that name parts which are not there any more: they go, and are reported as stale.
+
+An actuator, a sensor, a tendon or a constraint is nothing without what it is about, and neither is what is about that.
+So is a camera or light that follows a body.
+"""
+
+from collections.abc import Iterable, Iterator
+
+from twinform.diagnostics import Fate, rules
+from twinform.ir import Element
+from twinform.ir.frames import WORLD
+from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext
+from twinform.schemas.mjcf_references import KINDS, kind_of_tag, naming_attributes
+
+_MAKERS = frozenset({"composite", "flexcomp"})
+"""Elements of which MuJoCo makes parts with names of its own."""
+_MADE = frozenset(KINDS.values())
+_SCENE = frozenset({"worldbody", "asset"})
+"""Sections whose elements are something without what they name."""
+_TARGET = "target"
+"""The attribute of a camera or light that follows a body, which SDF has no words for."""
+Name = tuple[str, str]
+"""The kind and the name of a part."""
+
+
+def drop_dangling_parts(context: MjcfContext) -> None:
+    """Leave out what names a part that is not there. All sections are complete but for the texts."""
+    scene = context.sections.get("worldbody", ())
+    made = _MADE if any(each.name in _MAKERS for body in scene for each in body.walk()) else frozenset[str]()
+    left = _Left(context, made)
+    for name in _SCENE & context.sections.keys():
+        context.sections[name] = [*left.among(context.sections[name])]
+    # What names an element that has gone goes too.
+    while left.drop_once():
+        continue
+
+
+class _Left:
+    """What is left of the sections; of kinds that are `made`, names may be none of the file."""
+
+    def __init__(self, context: MjcfContext, made: frozenset[str]) -> None:
+        self._context = context
+        self._made = made
+        self._there = frozenset(_named(context))
+
+    def drop_once(self) -> bool:
+        """Leave out the elements of all sections that name nothing, and tell whether there were any."""
+        has_gone = False
+        for section, elements in self._context.sections.items():
+            if section in _SCENE:
+                continue
+            kept = [each for each in elements if not self._is_stale(each)]
+            has_gone = has_gone or len(kept) < len(elements)
+            elements[:] = kept
+        self._there = frozenset(_named(self._context)) if has_gone else self._there
+        return has_gone
+
+    def in_scene(self, element: Element) -> Element:
+        """An element of a body, and those in it, without attributes that name nothing."""
+        gone = dict(self._gone(element))
+        for name in gone.values():
+            self._report(element, name)
+        attributes = tuple(pair for pair in element.attributes if pair[0] not in gone)
+        return element.copy(attributes=attributes, children=self.among(element.children))
+
+    def among(self, elements: Iterable[Element]) -> tuple[Element, ...]:
+        """Those of some elements of bodies that do not follow one which is not there."""
+        return tuple(self.in_scene(each) for each in elements if each.get(_TARGET) is None or not self._is_stale(each))
+
+    def _is_stale(self, element: Element) -> bool:
+        found = next((name for each in element.walk() for _, name in self._gone(each)), None)
+        if found is not None:
+            self._report(element, found)
+        return found is not None
+
+    def _gone(self, element: Element) -> Iterator[tuple[str, Name]]:
+        """Yield the attributes of an element that name a part which is not there, with that part."""
+        attributes = dict(element.attributes)
+        for key, kind in naming_attributes(element.name, attributes):
+            name = (kind, attributes[key])
+            if not (name in self._there or kind in self._made or name == ("body", WORLD)):
+                yield key, name
+
+    def _report(self, element: Element, name: Name) -> None:
+        kind, called = name
+        where = element.location if element.source else self._context.holder.location
+        own = f" {found}" if (found := element.get("name")) else ""
+        message = f"<{element.name}>{own} is kept for {kind} {called!r}, which is not there any more"
+        self._context.sink.account(Fate.DROPPED, rules.STALE_CARRIER, message, where, 1)
+        self._context.sink.report(rules.STALE_CARRIER, message, where, found=f"{kind} {called!r}")
+
+
+def _named(context: MjcfContext) -> Iterator[Name]:
+    """Yield the kinds and names of all parts of the file."""
+    for section, elements in context.sections.items():
+        for outer in elements:
+            for each in outer.walk() if section == "worldbody" else (outer,):
+                kind, name = kind_of_tag(each.name, section), each.get("name")
+                if kind and name:
+                    yield kind, name
