@@ -13,9 +13,9 @@ from typing import Any
 import numpy as np
 
 from testbed.mjcf.canonical_models import body_inertias, canonical, differences, load_canonical
-from twinform.schemas.mjcf_references import own_references
 from twinform.compiler.normal_form import NormalForm
 from twinform.schemas import XmlElement
+from twinform.schemas.mjcf_references import own_references
 
 _COMPUTED = frozenset({
     "bvh_aabb", "geom_sameframe", "body_sameframe", "dof_length", "meansize", "meanmass", "body_simple",
