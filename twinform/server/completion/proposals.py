@@ -60,6 +60,12 @@ class ElementPlace(NamedTuple):
         return [child.tag for child in self.parent.children if child is not self.own]
 
 
+def element_snippet(tag: str, attributes: Iterable[str], *, holds: bool) -> str:
+    """Return the snippet of an element with attributes to fill in, and with room in it where it `holds` others."""
+    filled = "".join(f' {name}="${number}"' for number, name in enumerate(attributes, 1))
+    return f"{tag}{filled}>\n  $0\n</{tag}>" if holds else f"{tag}{filled}/>$0"
+
+
 def literal(text: str) -> str:
     """Escape a text for a snippet, in which `$CLIPBOARD` is what was copied last."""
     return text.replace("\\", "").replace("$", "\\$")

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from twinform.compiler.companions.name_places import paths_of_srdf
 from twinform.server.companions import parts_of_robots
-from twinform.server.completion.proposals import ITEM, ElementPlace, Proposal, ValuePlace, values
+from twinform.server.completion.proposals import ITEM, ElementPlace, Proposal, ValuePlace, element_snippet, values
 from twinform.server.documents import TextDocument
 from twinform.server.schema import is_of_xacro
 from twinform.server.session import Session
@@ -82,8 +82,5 @@ def _attributes(path: Path) -> list[str]:
 
 
 def _snippet(path: Path) -> str:
-    tag = path[-1]
-    needed = [name for name in _attributes(path) if name not in _OPTIONAL]
-    attributes = "".join(f' {name}="${number}"' for number, name in enumerate(needed, 1))
-    has_children = any(not each.startswith("@") for each in _below(path))
-    return f"{tag}{attributes}>\n  $0\n</{tag}>" if has_children else f"{tag}{attributes}/>$0"
+    needed = (name for name in _attributes(path) if name not in _OPTIONAL)
+    return element_snippet(path[-1], needed, holds=any(not each.startswith("@") for each in _below(path)))

@@ -6,7 +6,15 @@ from twinform.compiler.input.xacro.vocabulary import BARE, CONSTANTS, MATH, PYTH
 from twinform.diagnostics import Span
 from twinform.lazy import lazy_pattern
 from twinform.server.completion.names import definitions_of, documents_with_names, macros_around
-from twinform.server.completion.proposals import ITEM, ElementPlace, Proposal, ValuePlace, literal, values
+from twinform.server.completion.proposals import (
+    ITEM,
+    ElementPlace,
+    Proposal,
+    ValuePlace,
+    element_snippet,
+    literal,
+    values,
+)
 from twinform.server.document_names import definitions_in, is_in
 from twinform.server.documents import TextDocument
 from twinform.server.names import ELEMENTS, Name, parameter_names
@@ -105,9 +113,8 @@ def propose_xacro(place: ElementPlace) -> Iterator[Proposal]:
         if name == "insert_block" and not in_macro:
             continue
         tag = f"{PREFIX}{name}"
-        attributes = "".join(f' {each}="${number}"' for number, each in enumerate(needed, 1))
-        ending = f">\n  $0\n</{tag}>" if name in _HOLDING else "/>$0"
-        yield Proposal(tag, tag if place.bare else f"{tag}{attributes}{ending}", ITEM.Keyword, "xacro", text)
+        new = tag if place.bare else element_snippet(tag, needed, holds=name in _HOLDING)
+        yield Proposal(tag, new, ITEM.Keyword, "xacro", text)
     for macro in definitions_of(place.session, document, "macro"):
         yield _call_of(macro, bare=place.bare)
 
@@ -116,10 +123,8 @@ def _call_of(macro: Name, *, bare: bool) -> Proposal:
     """Propose a call of a macro with the parameters that it needs, and with room for its blocks."""
     tag = literal(f"{PREFIX}{macro.text}")
     parameters = parameter_names(macro.node)
-    needed = [each.name for each in parameters if each.needed]
-    attributes = "".join(f' {literal(each)}="${number}"' for number, each in enumerate(needed, 1))
-    ending = f">\n  $0\n</{tag}>" if any(each.block for each in parameters) else "/>$0"
-    new = tag if bare else f"{tag}{attributes}{ending}"
+    needed = (literal(each.name) for each in parameters if each.needed)
+    new = tag if bare else element_snippet(tag, needed, holds=any(each.block for each in parameters))
     return Proposal(f"{PREFIX}{macro.text}", new, ITEM.Function, macro.node.get("params") or "")
 
 
