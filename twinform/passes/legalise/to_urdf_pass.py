@@ -2,7 +2,7 @@
 
 from abc import abstractmethod
 from collections.abc import Iterable, Mapping
-from typing import TypeVar
+from typing import Self, TypeVar
 
 from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, Location, Rule
@@ -23,6 +23,11 @@ class UrdfKeeper(Keeper):
     """
 
     back: bool = False
+
+    @classmethod
+    def of(cls, document: Document, sink: DiagnosticSink, *, carriers: bool) -> Self:
+        """Return the keeper for the models of a document."""
+        return cls(sink, carriers, any(came_from(model, Format.URDF) for model in document.models))
 
     def keep(
         self,
@@ -81,7 +86,7 @@ class ToUrdfPass(Pass):
         """The document with its model after the pass."""
         if sink.has_errors:
             return document
-        keeper = UrdfKeeper(sink, self.carriers, any(came_from(model, Format.URDF) for model in document.models))
+        keeper = UrdfKeeper.of(document, sink, carriers=self.carriers)
         try:
             return replace_fields(document, models=tuple(self.run_model(model, keeper) for model in document.models))
         except FrameError as error:

@@ -7,7 +7,7 @@ from twinform.diagnostics import DiagnosticSink, rules
 from twinform.ir import Document, Format, Joint, Link, Model, Node, Opaque, replace_fields
 from twinform.ir.frames import WORLD
 from twinform.passes.carriers.absorb import has_first, inside, is_repeated
-from twinform.passes.carriers.annotations import came_from, with_provenance, without_provenance, without_synthesized
+from twinform.passes.carriers.annotations import with_provenance, without_provenance, without_synthesized
 from twinform.passes.carriers.carriers import NAMESPACE, PREFIX, SECOND, has_ours
 from twinform.passes.framework.pass_base import Pass
 from twinform.passes.legalise.to_urdf.map_surfaces import OF_ALL_COLLISIONS
@@ -43,7 +43,7 @@ class CarryTheRest(Pass):
         """The document as URDF."""
         if sink.has_errors:
             return document
-        keeper = UrdfKeeper(sink, self.carriers, any(came_from(model, Format.URDF) for model in document.models))
+        keeper = UrdfKeeper.of(document, sink, carriers=self.carriers)
         models = tuple(
             _finish_model(model, document, _RemainderCarrier(keeper, self.words)) for model in document.models
         )
