@@ -107,6 +107,11 @@ def stamp(path: Path, name: str, made: str) -> Dependency:
     return _add_status(Dependency(name, DependencyKind.READ, digest=made), path.stat())
 
 
+def has_other_variables(variables: Mapping[str, str | None]) -> bool:
+    """Whether an environment variable has another value than it had."""
+    return any(os.environ.get(name) != value for name, value in variables.items())
+
+
 def are_current(
     dependencies: Iterable[Dependency],
     root: str,

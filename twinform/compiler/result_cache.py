@@ -16,6 +16,7 @@ from twinform.compiler.dependencies import (
     Dependency,
     are_current,
     dependencies_of,
+    has_other_variables,
     packed,
     renewed,
     status,
@@ -179,7 +180,7 @@ class ResultCache:
         import json  # noqa: PLC0415 - only runs with kept results
 
         kept = self._results.get(key)
-        if kept is None or any(os.environ.get(name) != value for name, value in kept.variables.items()):
+        if kept is None or has_other_variables(kept.variables):
             return None
         with suppress(*_MALFORMED):
             groups = tuple(map(self._renewed, kept.groups))

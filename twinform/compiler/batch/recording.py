@@ -7,7 +7,6 @@ about the model, so its results stay.
 
 import errno
 import json
-import os
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
@@ -25,6 +24,7 @@ from twinform.compiler.dependencies import (
     DependencyKind,
     are_current,
     are_same,
+    has_other_variables,
     is_there,
     renewed,
     stamp,
@@ -89,7 +89,7 @@ class BatchPlan:
         return renewed(record.results, self._dest)
 
     def _is_current(self, record: ModelRecord) -> bool:
-        if any(os.environ.get(name) != value for name, value in record.variables.items()):
+        if has_other_variables(record.variables):
             return False
         return are_current(
             record.dependencies, self._root, noted=record.time, status=self._status, contents=self._contents
