@@ -1,14 +1,18 @@
 """Several joints of one body that were one joint with two axes, or of another kind, before it was written as MJCF."""
 
 import math
+import re
 from collections.abc import Iterable, Sequence
 
-from twinform.ir import Joint, Link, Mimic, Model, rewrite
+from twinform.compiler.input.mjcf.remainders import holder
+from twinform.ir import Element, Joint, Link, Mimic, Model, Opaque, rewrite
 from twinform.ir.defaults import multiplier
 from twinform.passes.carriers.annotations import find_annotation
-from twinform.passes.carriers.joint_chains import TWO_AXES, metres_per_radian
+from twinform.passes.carriers.carriers import is_carrier
+from twinform.passes.carriers.joint_chains import CHAINS, TWO_AXES, metres_per_radian
 from twinform.passes.carriers.mjcf_texts import LOOP
 from twinform.passes.carriers.partial_nodes import written_names
+from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements
 
 
 def join_joints(model: Model, partials: Iterable[Joint]) -> tuple[Model, list[Joint]]:
@@ -44,8 +48,18 @@ def _is_one(partial: Joint, chain: Sequence[Joint]) -> bool:
     """Whether joints hang from each other, and act as the one that they were."""
     if [each.child for each in chain[:-1]] != [each.parent for each in chain[1:]]:
         return False
-    # A slide is written without its place, which changes no motion.
-    return _is_led(chain[0]) if partial.type == "screw" else all(each.pose == chain[-1].pose for each in chain)
+    if partial.type == "screw":
+        return _is_screw(*chain)
+    return all(each.pose == chain[-1].pose and each.type == "revolute" for each in chain)
+
+
+def _is_screw(slide: Joint, turn: Joint) -> bool:
+    """Whether a slide only follows the turn of a screw, along its axis; it is written without its place."""
+    along, about = slide.axis, turn.axis
+    if along is None or about is None or (slide.type, turn.type) != ("prismatic", "revolute"):
+        return False
+    led_by = along.mimic.joint if along.mimic is not None else None
+    return led_by == turn.name and along.xyz == about.xyz and along.limit is None and along.dynamics is None
 
 
 def _joined(partial: Joint, chain: Sequence[Joint]) -> Joint:
@@ -56,10 +70,30 @@ def _joined(partial: Joint, chain: Sequence[Joint]) -> Joint:
         name=partial.name,
         type=partial.type,
         parent=first.parent,
-        opaque=tuple(part for each in chain for part in each.opaque),
+        opaque=_kept_of(partial, chain),
         **axes,
         **_pitch(partial, first),
     )
+
+
+def _kept_of(partial: Joint, chain: Sequence[Joint]) -> tuple[Opaque, ...]:
+    """What the joints of a chain keep: each for itself under its name, if any keeps something or was renamed."""
+    named: list[Element] = []
+    others: list[Element] = []
+    for joint in chain:
+        kept = [each for each in kept_elements(joint) if each.name == "joint"]
+        attributes = (("name", joint.name), *(pair for each in kept for pair in each.attributes))
+        named.append(Element.unchecked(name="joint", attributes=attributes))
+        others += (each for each in kept_elements(joint) if each.name != "joint")
+    rest = tuple(part for joint in chain for part in joint.opaque if not is_carrier(part, "mjcf"))
+    usual = (f"{partial.name}_{CHAINS[partial.type][0]}", partial.name)
+    # Where the names were taken, those that were written end in numbers.
+    is_usual = all(
+        re.fullmatch(rf"{re.escape(wish)}(_\d+)?", joint.name) and len(kept.attributes) == 1
+        for wish, joint, kept in zip(usual, chain, named, strict=True)
+    )
+    children = tuple(others if is_usual else (*named, *others))
+    return (*rest, holder(*children)) if children else rest
 
 
 def _leader(partial: Joint, *, is_last: bool) -> Mimic:
@@ -69,12 +103,6 @@ def _leader(partial: Joint, *, is_last: bool) -> Mimic:
 
 def _led(mimic: Mimic, leader: Mimic | None) -> Mimic:
     return mimic if leader is None else mimic.copy(joint=leader.joint, axis=leader.axis)
-
-
-def _is_led(slide: Joint) -> bool:
-    """Whether a slide only follows the turn of a screw."""
-    axis = slide.axis
-    return axis is not None and axis.mimic is not None and axis.limit is None and axis.dynamics is None
 
 
 def _pitch(partial: Joint, slide: Joint) -> dict[str, float]:

@@ -17,7 +17,7 @@ from twinform.ir.node import Vector3
 from twinform.ir.transform import Transform, rounded
 from twinform.passes.carriers.joint_chains import CHAINS, TWO_AXES, metres_per_radian
 from twinform.passes.legalise.to_mjcf.elements import Value, make_element, position
-from twinform.passes.legalise.to_mjcf.kept_mjcf import with_kept_joint
+from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_joints, with_kept_joint
 from twinform.passes.legalise.to_mjcf.writing_context import Body, MjcfContext, scope_of
 
 _KINDS: dict[JointType, str] = {
@@ -66,18 +66,16 @@ def _elements(context: MjcfContext, body: Body, between: JointBetween) -> Iterat
     context.written_joints[between.name] = (name,)
     context.note_made_name("joint", joint, name, f"{body.link.name}_joint")  # one that was fixed is called otherwise
     element = _element(context, body, between, at, joint.axis, name)
-    yield with_kept_joint(element, joint)
+    yield with_kept_joint(element, *kept_joints(joint))
 
 
 def _two_axes(context: MjcfContext, body: Body, between: JointBetween, at: Transform) -> Iterator[Element]:
     """Yield two hinges: the first axis turns with the parent, and the second with the child."""
     joint = between.joint
-    suffix = CHAINS[joint.type][0]
-    wish = _wish(context, between)
-    names = (_name(context, between, f"{wish}_{suffix}"), _name(context, between, wish))
-    context.written_joints[between.name] = names
-    yield _element(context, body, between, at, joint.axis, names[0])
-    yield with_kept_joint(_element(context, body, between, at, joint.axis2, names[1]), joint)
+    kept = kept_joints(joint, 2)
+    names = context.written_joints[between.name] = _names(context, between, kept)
+    for axis, name, each in zip((joint.axis, joint.axis2), names, kept, strict=True):
+        yield with_kept_joint(_element(context, body, between, at, axis, name), each)
 
 
 def _screw(context: MjcfContext, body: Body, between: JointBetween, at: Transform) -> Iterator[Element]:
@@ -89,13 +87,12 @@ def _screw(context: MjcfContext, body: Body, between: JointBetween, at: Transfor
         help_ = "write a prismatic joint, or a pitch"
         context.sink.report(rules.JOINT_TYPE_UNSUPPORTED, message, joint.location, found="screw", help=help_)
         return
-    suffix = CHAINS["screw"][0]
-    wish = _wish(context, between)
-    slide, turn = _name(context, between, f"{wish}_{suffix}"), _name(context, between, wish)
+    kept = kept_joints(joint, 2)
+    slide, turn = _names(context, between, kept)
     context.written_joints[between.name], context.written_slides[between.name] = (turn,), slide
     along = Axis.unchecked(xyz=joint.axis.xyz, expressed_in=joint.axis.expressed_in) if joint.axis else None
-    yield _element(context, body, between, at, along, slide, kind="slide")
-    yield with_kept_joint(_element(context, body, between, at, joint.axis, turn), joint)
+    yield with_kept_joint(_element(context, body, between, at, along, slide, kind="slide"), kept[0])
+    yield with_kept_joint(_element(context, body, between, at, joint.axis, turn), kept[1])
     message = f"screw joint {joint.name!r} is a slide and a hinge, which a constraint couples"
     context.approximate(rules.JOINT_CHAIN, message, joint.location)
     polynomial = (0.0, pitch, 0.0, 0.0, 0.0)
@@ -105,6 +102,14 @@ def _screw(context: MjcfContext, body: Body, between: JointBetween, at: Transfor
 def _wish(context: MjcfContext, between: JointBetween) -> str:
     scope = scope_of(between.name)
     return context.wish("joint", scope, context.old_name("joint", scope, between.joint))
+
+
+def _names(context: MjcfContext, between: JointBetween, kept: Sequence[Element | None]) -> tuple[str, str]:
+    """The names of the two joints that stand for one: those that they were given in MJCF, or made ones."""
+    wish = _wish(context, between)
+    wishes = (f"{wish}_{CHAINS[between.joint.type][0]}", wish)
+    first, last = ((each and each.get("name")) or usual for each, usual in zip(kept, wishes, strict=True))
+    return _name(context, between, first), _name(context, between, last)
 
 
 def _name(context: MjcfContext, between: JointBetween, wanted: str) -> str:

@@ -57,9 +57,19 @@ def merged(element: Element, kept: Element) -> Element:
     return element.copy(attributes=(*element.attributes, *more), children=(*element.children, *kept.children))
 
 
-def with_kept_joint(element: Element, joint: Joint) -> Element:
+def kept_joints(joint: Joint, count: int = 1) -> list[Element | None]:
+    """What a joint of SDF keeps of each of the joints of MJCF that stand for it, the nearest to the parent first.
+
+    Each of several keeps its name; what has none is of the last.
+    """
+    kept = [each for each in kept_elements(joint) if each.name == "joint"]
+    if len(kept) >= count:
+        return [*kept[:count]]
+    return [*[None] * (count - 1), kept[-1] if kept else None]
+
+
+def with_kept_joint(element: Element, kept: Element | None) -> Element:
     """Return a joint of MJCF with what the joint of SDF keeps of it."""
-    kept = next((each for each in kept_elements(joint) if each.name == "joint"), None)
     if kept is None:
         return element
     is_of_actuators = kept.get(FORCE[0]) == "false"
@@ -69,7 +79,7 @@ def with_kept_joint(element: Element, joint: Joint) -> Element:
     written = tuple((name, _with_rest(name, value, kept)) for name, value in element.attributes)
     if (force := kept.get(FORCE[1])) and _is_greatest(force, element.get(FORCE[1])):
         written = tuple((name, force if name == FORCE[1] else value) for name, value in written)
-    made = with_kept(element.copy(attributes=written), joint)
+    made = merged(element.copy(attributes=written), kept)
     if made.get(FORCE[1]) is None or (is_of_actuators and element.get(FORCE[1]) is None):
         made = _without_force(made)  # where nothing is limited, it need not be said
     return _counted_from(made)
