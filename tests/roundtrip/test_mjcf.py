@@ -166,6 +166,17 @@ def test_what_only_mjcf_says_of_lights_and_cameras_comes_back_twice() -> None:
     assert 'output="depth"' in second
 
 
+def test_a_model_with_a_sensor_of_sdf_is_still_of_mjcf() -> None:
+    arm = b"""<mujoco model="arm"><worldbody><body name="arm"><freejoint/>
+      <inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/><geom name="bone" size="0.1 0.2 0.3" group="1"/>
+    </body></worldbody></mujoco>"""
+    with_imu = convert(arm, to="sdf").text.replace("</link>", '<sensor name="imu" type="imu"/></link>', 1)
+    first = convert(with_imu.encode(), to="mjcf").text
+    second = convert(convert(first.encode(), to="sdf").text.encode(), to="mjcf").text
+    assert first == second
+    assert 'size="0.1 0.2 0.3"' in second
+
+
 def test_a_terrain_that_is_seen_and_touched_needs_no_text() -> None:
     ground = b"""<mujoco model="ground"><asset><hfield name="hills" file="hills.png" size="1 1 0.1 0.1"/></asset>
       <worldbody><geom name="hills" type="hfield" hfield="hills"/></worldbody></mujoco>"""

@@ -127,10 +127,11 @@ def _opaque(parts: tuple[Opaque, ...], names: frozenset[PartName]) -> tuple[Opaq
 
 
 def _without(element: Element, names: frozenset[PartName]) -> Element:
-    children = tuple(
-        _without(each, names) for each in element.children if (each.name, each.get("name") or "") not in names
+    left = (
+        (each, _without(each, names)) for each in element.children if (each.name, each.get("name") or "") not in names
     )
-    kept = tuple(each for each in children if each.children or each.attributes)
+    # What was empty before says something by being there, such as that a model was read of MJCF.
+    kept = tuple(made for each, made in left if made.children or made.attributes or not each.children)
     return element.copy(children=kept)
 
 

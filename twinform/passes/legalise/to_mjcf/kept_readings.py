@@ -49,6 +49,7 @@ def add_kept_readings(context: MjcfContext, sensor: Sensor, body: Body, joint: J
     written = context.written_sites[site.name]
     context.kept_readings += [("", _at(each, written)) for each in kept]
     names = {source_name(site.frame), site.frame.name}
+    names = {written} if written in names else names
     read = sensor.name if sensor.name in {f"{each}_{sensor.type}" for each in names} else None
     name = read or f"{written.replace('::', '__')}_{sensor.type}"
     context.kept_sensors[id(sensor.source)] = KeptSensor(name, _collisions(sensor) == _touching(body))
