@@ -9,7 +9,7 @@ from typing import TypeVar
 from twinform.compiler.input.mjcf.carried_texts import CarriedText, nodes_of, report_stale
 from twinform.compiler.input.mjcf.joined_joints import join_joints
 from twinform.compiler.input.mjcf.nested_back import is_nested_in, nested_back
-from twinform.compiler.input.mjcf.renamed_parts import name_in_file
+from twinform.compiler.input.mjcf.renamed_parts import name_in_file, with_hidden_names
 from twinform.compiler.input.mjcf.restore_contacts import kept_apart
 from twinform.compiler.input.mjcf.restore_loops import is_loop, loops_back
 from twinform.compiler.input.mjcf.restore_sensors import (
@@ -75,6 +75,7 @@ class _PartMerging:
 
     def in_model(self, model: Model) -> Model:
         """A model with what carriers hold of it and its parts."""
+        model = with_hidden_names(model, [each for each in self._joints if each.type != "fixed"])
         bodies = {name_in_file(each): each.name for each in model.links}
         held = {bodies[body]: each for body, each in self._of_bodies.items() if body is not None and body in bodies}
         fixed = {

@@ -61,6 +61,15 @@ def renamed_parts(model: Model, links: Sequence[Link], joints: Sequence[Joint], 
     return replace_fields(whole, joints=joints)
 
 
+def with_hidden_names(model: Model, partials: Sequence[Joint]) -> Model:
+    """The model with the names that partial joints give to the links between joints of one body, if these are free."""
+    names: Names = {}
+    _name_hidden(model, partials, names)
+    taken = {each.name for each in (*model.links, *model.joints, *model.frames)}
+    changed = {key: new for key, new in names.items() if new not in taken}
+    return renamed(model, changed, Format.SDF) if changed else model
+
+
 def name_in_file(node: Node) -> str:
     """The name of a part in the file."""
     found = find_annotation(node, NAME)

@@ -9,6 +9,7 @@ from collections.abc import Collection
 from itertools import chain
 from typing import NamedTuple, cast
 
+from twinform.compiler.input.mjcf.renamed_parts import name_in_file
 from twinform.ir import Collision, Element, Link, Model, Node, Opaque, Surface, World, replace_fields, rewrite
 from twinform.ir.kinematic_tree import KinematicTree
 from twinform.ir.rewrite import ANYTHING
@@ -164,7 +165,8 @@ def kept_apart(model: Model, root: XmlElement) -> Model:
     apart = model.copy(self_collide=False)
     plan = ContactPlan(apart, KinematicTree(apart), frozenset(), is_of_mjcf=True)
     written = {frozenset((each.get("body1"), each.get("body2"))) for each in root.iterfind("contact/exclude")}
-    if not {frozenset[str | None](pair) for pair in plan.excluded} <= written:
+    names = {each.name: name_in_file(each) for each in model.links}
+    if not {frozenset(names.get(each, each) for each in pair) for pair in plan.excluded} <= written:
         return model
     return cast("Model", _excluding(apart, plan))
 

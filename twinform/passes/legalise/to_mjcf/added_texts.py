@@ -41,7 +41,6 @@ from twinform.passes.legalise.to_mjcf.contact_plan import MASKS
 from twinform.passes.legalise.to_mjcf.file_models import FileModels
 from twinform.passes.legalise.to_mjcf.friction import without_friction
 from twinform.passes.legalise.to_mjcf.inertials import weight_of
-from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements
 from twinform.passes.legalise.to_mjcf.lights import unread_light
 from twinform.passes.legalise.to_mjcf.looks import is_seen
 from twinform.passes.legalise.to_mjcf.model_texts import holder_partials, is_of_mjcf
@@ -68,7 +67,7 @@ class AddedTexts(TextList):
             for each in model.links
             if each.name not in hidden
         ]
-        joints = [each.copy(child=None) if each.child in hidden else each for each in model.joints]
+        joints = [_without_hidden(each) if each.child in hidden else each for each in model.joints]
         joints = [_as_mjcf_has_it(each, self.context) for each in joints if not self._is_constraint(each)]
         models = FileModels(self.context)
         for part in holder_partials(self.context, self.file, models):
@@ -162,7 +161,7 @@ class AddedTexts(TextList):
     def _without_seen(self, link: Link) -> Link:
         """A link whose visuals have no material that the file shows as it is."""
         self.file.part = link
-        if self.file.flat.self_collide == link.self_collide or self.context.models[1:]:  # flattening gives it to links
+        if self.context.models[1:]:  # flattening gives it to links
             link = link.copy(self_collide=None)
 
         def unseen(visual: Visual) -> Visual:
@@ -191,8 +190,9 @@ class AddedTexts(TextList):
             if not notes and (is_unnamed or geom in {"", source_name(node)}):
                 return ()
             self.context.unnamed.discard(("geom", geom))
-            written = [annotation(WRITTEN, attributes={"as": each}) for each in self.file.other_names(node)]
-            return (*written, *notes)
+            # `::` is no part of a name where it is read.
+            names = [each.replace("::", "__") for each in self.file.other_names(node)]
+            return (*(annotation(WRITTEN, attributes={"as": each}) for each in names), *notes)
         if isinstance(node, Joint) and (node.name in self.file.closing or node.type in CHAINS):
             return tuple(self._notes_of_several(node))
         if isinstance(node, Sensor) and (read := self.context.kept_sensors.get(id(node.source))) is not None:
@@ -210,6 +210,11 @@ class AddedTexts(TextList):
             yield annotation(LOOP)
             self.context.unnamed.difference_update((tag, each) for tag in ("connect", "weld") for each in names)
         yield from (annotation(WRITTEN, attributes={"as": each}) for each in names)
+
+
+def _without_hidden(joint: Joint) -> Joint:
+    """A joint without the link between it and the next one of a body, if that has the name that it is read with."""
+    return joint.copy(child=None) if (joint.child or "").startswith(f"{joint.name}_link") else joint
 
 
 def _has_uri(shape: Visual | Collision) -> bool:
@@ -245,7 +250,7 @@ def _as_mjcf_has_link(link: Link, context: MjcfContext, *, has_masks: bool) -> L
         sensors=_unread_sensors(link.sensors, context),
         lights=tuple(left for each in link.lights if (left := unread_light(each)) is not None),
         inertial=None if weight_of(link).is_nothing else link.inertial,
-        kinematic=None if _is_mocap(link) else link.kinematic,
+        kinematic=None if link.name in context.mocap else link.kinematic,
         gravity=None if link.gravity is False else link.gravity,
     )
 
@@ -295,8 +300,3 @@ def _is_read(element: Element | None, read: KeptSensor | None) -> bool:
 
 _PARAMETERS = frozenset({"contact", "lidar", "force_torque"})
 _OF_CAMERAS = frozenset({"camera", "horizontal_fov", "image", "width", "height"})
-
-
-def _is_mocap(link: Link) -> bool:
-    """Whether a link keeps that only a program moves it."""
-    return any(each.name == "body" and each.get("mocap") == "true" for each in kept_elements(link))

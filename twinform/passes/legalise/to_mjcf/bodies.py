@@ -25,6 +25,8 @@ from twinform.passes.legalise.to_mjcf.writing_context import Body, MjcfContext, 
 
 _INSIDE = frozenset({"camera", "site", "light", "geom", "plugin", "composite", "flexcomp", "attach"})
 """What a link keeps of its body that SDF has nothing for, such as a camera that follows another body."""
+_MOCAP = "mocap"
+"""What says that only a program moves a body: it has no joint, and is a child of the world."""
 MOST_DEEP = 400
 """So many bodies may be nested: MuJoCo's parser of XML refused 497, and what writes XML here calls itself for each."""
 
@@ -170,7 +172,13 @@ class _BodyTree:
         # Gravity is compensated for a link that it does not act on.
         weightless = [("gravcomp", "1")] if body.link.gravity is False else []
         element = make_element("body", [("name", body.written), *placed, *weightless], children, body.link.source)
-        return with_kept(element, body.link)
+        element = with_kept(element, body.link)
+        if element.get(_MOCAP) != "true":
+            return element
+        if body.link.kinematic and not body.moves and hold.parent is None:
+            self.context.mocap.add(body.name)
+            return element
+        return element.copy(attributes=tuple(pair for pair in element.attributes if pair[0] != _MOCAP))
 
 
 def _world_link(context: MjcfContext) -> str | None:

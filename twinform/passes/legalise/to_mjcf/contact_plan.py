@@ -17,6 +17,7 @@ from typing import NamedTuple
 
 from twinform.ir import Collision, Model, World
 from twinform.ir.frames import WORLD
+from twinform.ir.geometry import Empty
 from twinform.ir.kinematic_tree import KinematicTree
 from twinform.ir.scopes import SCOPE, scoped_models
 from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements
@@ -64,7 +65,7 @@ class ContactPlan:
         self._groups: dict[str, list[str]] = defaultdict(list)
         """The links that have collisions, by the outermost model that they are in."""
         for name, link in tree.links.items():
-            if link.collisions:
+            if any(map(_has_shape, link.collisions)):
                 self._groups[name.partition(SCOPE)[0] if isinstance(holder, World) else ""].append(name)
         collisions = [each for link in tree.links.values() for each in link.collisions]
         self._has_masks = any(mask_of(each, name) is not None for each in collisions for name in MASKS)
@@ -186,7 +187,7 @@ class ContactPlan:
         return any(a.meets(b) for a in mine for b in others)
 
     def _bits_of(self, link: str) -> frozenset[Bits]:
-        return frozenset(self.bits(link, each) for each in self._tree.links[link].collisions)
+        return frozenset(self.bits(link, each) for each in self._tree.links[link].collisions if _has_shape(each))
 
     def _is_filtered(self, one: str, other: str) -> bool:
         """Whether MuJoCo leaves out the contacts of two links by itself."""
@@ -227,6 +228,12 @@ def mask_of(collision: Collision, name: str) -> int | None:
     text = element.text if element is not None else None
     # MuJoCo has 32 bits, of which the first is the sign
     return (whole_number(text, ALL_TOUCH) + _SIGN) % (2 * _SIGN) - _SIGN if text else None
+
+
+def _has_shape(collision: Collision) -> bool:
+    """Whether a collision can touch anything: without a shape it has no geom."""
+    shape = collision.geometry.shape if collision.geometry else None
+    return shape is not None and not isinstance(shape, Empty)
 
 
 def _kept_bits(collision: Collision) -> Bits | None:

@@ -97,6 +97,7 @@ class MjcfContext:
         left: nodes whose untyped elements MJCF says in part, by identity, each with what MJCF leaves of it.
         kept_readings: the readings that sensors keep, each with the prefix of the names in it.
         kept_sensors: what is read of sensors with such readings, by the identities of their sources.
+        mocap: the scoped names of the links whose bodies only a program moves.
         files: `asset` elements by what they are made of, so that equal ones are shared.
         colors_of_files: the colors that mesh files give themselves, by their URIs.
         sections: what stands outside of `worldbody`, by the name of the section, in the order in which it was added.
@@ -123,6 +124,7 @@ class MjcfContext:
     left: dict[int, tuple[Node, Node]] = field(default_factory=dict[int, tuple[Node, Node]])
     kept_readings: list[tuple[str, Element]] = field(default_factory=list[tuple[str, Element]])
     kept_sensors: dict[int, KeptSensor] = field(default_factory=dict[int, KeptSensor])
+    mocap: set[str] = field(default_factory=set[str])
     files: dict[object, str | None] = field(default_factory=dict[object, str | None])
     colors_of_files: dict[str, Rgba | Several | None] = field(default_factory=dict[str, Rgba | Several | None])
     sections: dict[str, list[Element]] = field(default_factory=lambda: defaultdict(list))
