@@ -170,11 +170,13 @@ def test_a_model_with_a_sensor_of_sdf_is_still_of_mjcf() -> None:
     arm = b"""<mujoco model="arm"><worldbody><body name="arm"><freejoint/>
       <inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/><geom name="bone" size="0.1 0.2 0.3" group="1"/>
     </body></worldbody></mujoco>"""
-    with_imu = convert(arm, to="sdf").text.replace("</link>", '<sensor name="imu" type="imu"/></link>', 1)
-    first = convert(with_imu.encode(), to="mjcf").text
+    sensors = '<sensor name="imu" type="imu"/><sensor name="gps" type="navsat"/>'
+    with_sensors = convert(arm, to="sdf").text.replace("</link>", f"{sensors}</link>", 1)
+    first = convert(with_sensors.encode(), to="mjcf").text
     second = convert(convert(first.encode(), to="sdf").text.encode(), to="mjcf").text
     assert first == second
     assert 'size="0.1 0.2 0.3"' in second
+    assert all(each in convert(second.encode(), to="sdf").text for each in ('"imu" type="imu"', '"gps" type="navsat"'))
 
 
 def test_a_terrain_that_is_seen_and_touched_needs_no_text() -> None:

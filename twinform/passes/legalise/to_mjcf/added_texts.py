@@ -33,9 +33,10 @@ from twinform.passes.carriers.carriers import is_ours, without_parts
 from twinform.passes.carriers.joint_chains import CHAINS
 from twinform.passes.carriers.mjcf_texts import (
     LOOP,
+    PARTS,
     SHAPE_OF,
 )
-from twinform.passes.carriers.partial_nodes import WRITTEN, Left, is_bare, remainder
+from twinform.passes.carriers.partial_nodes import WRITTEN, Left, is_bare, is_rest, remainder
 from twinform.passes.legalise.changed_names import fixed_joint_name, source_name
 from twinform.passes.legalise.to_mjcf.contact_plan import MASKS
 from twinform.passes.legalise.to_mjcf.file_models import FileModels
@@ -224,10 +225,14 @@ def _has_uri(shape: Visual | Collision) -> bool:
 
 
 def _tells_of_names(left: Node) -> bool:
-    """Whether what is left of a node has a note of a file, shape or sensor that is named otherwise than in MJCF."""
+    """Whether what is left of a node has a note of a file, shape or sensor that is named otherwise than in MJCF.
+
+    Of a sensor that is read as another one, or as none, its name and its type say something.
+    """
     return any(
         find_annotation(each, SHAPE_OF) is not None
         or (isinstance(each, Visual | Collision | Sensor) and find_annotation(each, WRITTEN) is not None)
+        or (isinstance(each, Sensor) and (find_annotation(each, PARTS) is not None or not is_rest(each)))
         for each in walk(left)
     )
 
