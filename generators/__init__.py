@@ -1,1 +1,1 @@
-"""Makes pages, tables and pictures for the documents from what the case files show."""
+"""Makes what is committed and generated: schemas, tables of code, reference pages; and the pictures of the documents."""

@@ -7,7 +7,7 @@ from typing import Protocol, TypeVar
 from twinform.ir.groups import Groups
 from twinform.ir.joint import Axis, Joint
 from twinform.ir.node import Vector3
-from twinform.ir.transform import Transform
+from twinform.ir.transform import Transform, times
 
 FULL_TURN = 2 * math.pi
 WITHOUT_AXIS = frozenset({"fixed", "ball", "spherical", "floating"})
@@ -79,7 +79,7 @@ def _grown(joints: Iterable[AnyJoint], others: Iterable[AnyJoint] = ()) -> tuple
 
 def slide(axis: Vector3, distance: float) -> Transform:
     """The motion of so many meters along a unit vector."""
-    return Transform(_times(axis, distance))
+    return Transform(times(axis, distance))
 
 
 def turn(axis: Vector3, angle: float, center: Vector3, advance: float = 0.0) -> Transform:
@@ -96,7 +96,7 @@ def turn(axis: Vector3, angle: float, center: Vector3, advance: float = 0.0) -> 
         x * z * v - y * s, y * z * v + x * s, c + z * z * v,
     )  # fmt: skip
     back = Transform(rotation=rotation).rotate(center)
-    shift = _times(axis, advance)
+    shift = times(axis, advance)
     return Transform(
         (center[0] - back[0] + shift[0], center[1] - back[1] + shift[1], center[2] - back[2] + shift[2]), rotation
     )
@@ -121,7 +121,3 @@ def plane_across(normal: Vector3) -> tuple[Vector3, Vector3]:
         return (1.0, 0.0, 0.0), (0.0, -1.0, 0.0)
     both = -x * y / (1.0 + z) + 0.0
     return (1.0 - x * x / (1.0 + z), both, -x + 0.0), (both, 1.0 - y * y / (1.0 + z), -y + 0.0)
-
-
-def _times(vector: Vector3, factor: float) -> Vector3:
-    return (vector[0] * factor, vector[1] * factor, vector[2] * factor)

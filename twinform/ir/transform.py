@@ -224,10 +224,14 @@ def minus(a: Vector3, b: Vector3) -> Vector3:
     return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
 
 
+def times(vector: Vector3, factor: float) -> Vector3:
+    """Return the vector with another length."""
+    return (vector[0] * factor, vector[1] * factor, vector[2] * factor)
+
+
 def across(axis: Vector3, arm: Vector3) -> Vector3:
     """Return the part of a vector perpendicular to a unit vector."""
-    along = dot(axis, arm)
-    return minus(arm, (axis[0] * along, axis[1] * along, axis[2] * along))
+    return minus(arm, times(axis, dot(axis, arm)))
 
 
 # Products of masses and squares of lengths leave the range of doubles long before their results do,

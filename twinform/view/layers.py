@@ -12,7 +12,7 @@ from twinform.compiler.scene import Frustum, SceneJoint
 from twinform.ir import Mesh, Vector3
 from twinform.ir.motion import plane_across, slide, turn
 from twinform.ir.solids import Solid, principal_axes
-from twinform.ir.transform import Transform
+from twinform.ir.transform import Transform, cross
 from twinform.view.figure import MARK, Figure, Handle, Rgb, placed, rgb
 
 np: Any = importlib.import_module("numpy")
@@ -150,8 +150,7 @@ def inertia_box(solid: Solid) -> tuple[Vector3, Transform] | None:
     moments, axes = principal_axes(solid.inertia)
     total = sum(moments)
     a, b, c = (math.sqrt(max(0.0, 6 * (total - 2 * each) / solid.mass)) for each in moments)
-    (x1, x2, x3), (y1, y2, y3) = axes[0], axes[1]
-    z1, z2, z3 = x2 * y3 - x3 * y2, x3 * y1 - x1 * y3, x1 * y2 - x2 * y1
+    (x1, x2, x3), (y1, y2, y3), (z1, z2, z3) = axes[0], axes[1], cross(axes[0], axes[1])
     pose = Transform(solid.center, (x1, y1, z1, x2, y2, z2, x3, y3, z3))
     return ((a, b, c), pose) if all(map(math.isfinite, (a, b, c))) else None
 

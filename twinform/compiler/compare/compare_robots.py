@@ -44,7 +44,7 @@ from twinform.dataclass import dataclass
 from twinform.ir.frames import WORLD
 from twinform.ir.motion import spanning_tree
 from twinform.ir.node import Vector3
-from twinform.ir.transform import Transform
+from twinform.ir.transform import Transform, across, minus
 
 Named = TypeVar("Named", ComparedBody, JointView)
 _SHARED = "inertial/inertia"
@@ -233,7 +233,7 @@ def _common_leaves(a: JointView, b: JointView) -> tuple[Leaves, Leaves]:
 def _gaps_off_axis(a: JointView, b: JointView, base: Base) -> Iterable[Delta]:
     """Return how far the joints are off each other's axis or center: the larger distance, where their axes differ."""
     one, other = (Point(each.frame.translation).seen_from(to).xyz for each, to in ((a, base.a), (b, base.b)))
-    away = (other[0] - one[0], other[1] - one[1], other[2] - one[2])
+    away = minus(other, one)
     found = (_distance(each, away, to) for each, to in ((a, base.a), (b, base.b)))
     off = max((distance for distance in found if distance is not None), default=None)
     # none where the frames are only turned, or where the joints slide
@@ -243,9 +243,7 @@ def _gaps_off_axis(a: JointView, b: JointView, base: Base) -> Iterable[Delta]:
 def _distance(joint: JointView, away: Vector3, base: Transform) -> float | None:
     """Return how far a point is from the axis or center of a joint; None for a joint that slides."""
     if joint.type in _ABOUT_A_LINE and joint.axes:
-        axis = UnitVector(joint.axes[0]).seen_from(base).xyz
-        along = sum(part * share for part, share in zip(away, axis, strict=True))
-        return math.hypot(*(away[i] - along * axis[i] for i in range(3)))
+        return math.hypot(*across(UnitVector(joint.axes[0]).seen_from(base).xyz, away))
     return math.hypot(*away) if joint.type in _ABOUT_A_POINT else None
 
 

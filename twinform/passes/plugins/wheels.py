@@ -9,6 +9,7 @@ from twinform.dataclass import dataclass
 from twinform.ir import Box, Capsule, Cone, Cylinder, Ellipsoid, Format, Joint, Model, Shape, Sphere, Vector3
 from twinform.ir.defaults import direction, sizes
 from twinform.ir.frames import MODEL, FrameError, FrameGraph
+from twinform.ir.motion import unit
 from twinform.ir.scopes import scoped_links
 from twinform.ir.transform import Matrix3, Transform, cross, dot
 
@@ -179,7 +180,7 @@ def _normalize(vector: Vector3) -> Vector3:
     length = math.hypot(*vector)
     if length == 0.0 or not math.isfinite(length):
         raise NotMeasuredError("the axle of a wheel has no direction, or stands upright")
-    return (vector[0] / length, vector[1] / length, vector[2] / length)
+    return unit(vector)
 
 
 @dataclass(frozen=True, slots=True)
