@@ -1,1 +1,1 @@
-"""Makes what is committed and generated: schemas, tables of code, reference pages; and the pictures of the documents."""
+"""Makes what is committed and generated: schemas, tables of code, reference pages; and pictures of the documents."""
