@@ -188,7 +188,7 @@ class AddedTexts(TextList):
             notes = (*look, *(self.spelling.on_shape(node) if _has_uri(node) else ()))
             geom = self.file.geom_name(node) or ""
             is_unnamed = ("geom", geom) in self.context.unnamed
-            if not notes and (is_unnamed or geom in {"", source_name(node)}):
+            if not notes and (is_unnamed or geom in {"", source_name(self._whole(node))}):
                 return ()
             self.context.unnamed.discard(("geom", geom))
             # `::` is no part of a name where it is read.
@@ -203,6 +203,13 @@ class AddedTexts(TextList):
             self.context.unnamed.difference_update((each.name, each.get("name") or "") for each in parts)
             return tuple(self.spelling.parts(node))
         return ()
+
+    def _whole(self, shape: Visual | Collision) -> Visual | Collision:
+        """The shape of which a part is left, with the note of the name that it had."""
+        link = self.file.part
+        shapes = (*link.visuals, *link.collisions) if isinstance(link, Link) else ()
+        alike = (each for each in shapes if type(each) is type(shape) and each.name == shape.name)
+        return next(alike, shape)
 
     def _notes_of_several(self, joint: Joint) -> Iterable[Opaque]:
         """The names of the joints or constraints that stand for a joint, and that it closes a loop."""
