@@ -52,14 +52,15 @@ def said_of_limit(limit: Limit, joint: Joint) -> frozenset[str]:
     A joint that can only be at one position has a narrow range instead.
     """
     found: set[str] = set()
-    if joint.type in _LIMITED and limit.lower != limit.upper and not _is_reversed(limit):
+    if joint.type in LIMITED and limit.lower != limit.upper and not _is_reversed(limit):
         found |= {"lower", "upper"}
     if joint.type not in _ROUND and limit.effort is not None and 0.0 < limit.effort < UNLIMITED:
         found.add("effort")
     return frozenset(found)
 
 
-_LIMITED = frozenset({"revolute", "prismatic", "universal", "revolute2", "screw"})
+LIMITED = frozenset({"revolute", "prismatic", "universal", "revolute2", "screw"})
+"""The types of joints that are written with a range."""
 _ROUND = frozenset({"ball", "spherical"})
 """The types of joints without an axis, which are written without an effort too."""
 

@@ -37,7 +37,7 @@ from twinform.passes.carriers.annotations import (
     without_annotation,
     without_synthesized,
 )
-from twinform.passes.carriers.carriers import NAMESPACE
+from twinform.passes.carriers.carriers import NAMESPACE, is_carrier
 from twinform.passes.carriers.carriers import PREFIX as TF
 from twinform.passes.carriers.mjcf_texts import ATTACHED, DOCUMENT, PREFIXES, SEVERAL
 from twinform.passes.carriers.partial_nodes import WRITTEN, Merging, is_rest, written_names
@@ -244,7 +244,10 @@ class _Merged:
         # Without the mark of what was read of MJCF: this is the world of SDF that was written.
         lowered = without_usual(lowered.copy(lights=without_lights(lowered.lights, self.parts)))
         lowered, partial = restored_settings(lowered, partial, self.root)
-        world = lowered.copy(models=model.models, joints=model.joints, frames=model.frames)
+        # What only MJCF says about the trees of bodies, such as a sensor, is about parts of several models.
+        kept = tuple(part for part in model.opaque if is_carrier(part, "mjcf"))
+        opaque = (*lowered.opaque, *kept)
+        world = lowered.copy(models=model.models, joints=model.joints, frames=model.frames, opaque=opaque)
         world = self.merging.merge(world, partial.copy(name=self._name(partial)))
         return world.copy(lights=tuple(without_annotation(each, POSE) for each in world.lights))
 

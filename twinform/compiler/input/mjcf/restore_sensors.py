@@ -1,6 +1,6 @@
 """Sensors, lights and settings of SDF that became other elements of MJCF: they come back while these are as written."""
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from typing import NamedTuple, TypeVar
 
 from twinform.compiler.input.mjcf.carried_texts import report_stale
@@ -8,7 +8,7 @@ from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Element, Frame, Joint, Light, Link, Model, Node, Opaque, Sensor, World, replace_fields, rewrite
 from twinform.passes.carriers.annotations import find_annotation, without_annotation
 from twinform.passes.carriers.mjcf_texts import PARTS, digest_of
-from twinform.passes.carriers.partial_nodes import REST
+from twinform.passes.carriers.partial_nodes import REST, written_name, written_names
 from twinform.passes.legalise.changed_names import NAME
 from twinform.passes.legalise.to_mjcf.kept_mjcf import KEPT
 from twinform.passes.legalise.to_mjcf.options import SETTINGS
@@ -32,18 +32,24 @@ class SensorsBack(NamedTuple):
 def sensors_back(
     links: Iterable[Link], joints: Iterable[Joint], world: World | None, root: XmlElement, sink: DiagnosticSink
 ) -> SensorsBack:
-    """Find the sensors whose elements are in a canonical tree as they were written; the others are as they stand."""
+    """Find the sensors whose elements are in a canonical tree as they were written; the others are as they stand.
+
+    Those in bodies are still in the body of their link, or in the one that their joint moves.
+    """
+    links, joints = list(links), list(joints)
+    bodies = {each.name: written_name(each) for each in links}
     elements = {(str(each.tag), each.get("name") or ""): each for each in root.iter()}
     used: set[PartName] = set()
 
-    def back(sensor: AnyEmitter) -> AnyEmitter | None:
+    def back(sensor: AnyEmitter, of_holder: Collection[str | None]) -> AnyEmitter | None:
         note = find_annotation(sensor, PARTS)
         if note is None:
             return sensor
         names = [_part_name(line) for line in (note.text or "").splitlines()]
         found = [elements[name] for name in names if name in elements]
         digest = digest_of((str(each.tag), {str(k): str(v) for k, v in each.items()}) for each in found)
-        if not found or digest != note.get("digest"):
+        is_moved = any(_body_around(each) not in of_holder for each in found if each.tag in _IN_BODIES)
+        if not found or digest != note.get("digest") or is_moved:
             state = "was edited" if found else "is gone"
             report_stale(
                 sink, f"what {type(sensor).__name__.lower()} {sensor.name!r} is in MJCF {state}", sensor.source
@@ -52,16 +58,37 @@ def sensors_back(
         used.update(names)
         return without_annotation(sensor, PARTS, REST)
 
-    def kept(parts: tuple[AnyEmitter, ...]) -> tuple[AnyEmitter, ...]:
-        return tuple(made for each in parts if (made := back(each)) is not None)
+    def kept(parts: tuple[AnyEmitter, ...], *of_holder: str | None) -> tuple[AnyEmitter, ...]:
+        return tuple(made for each in parts if (made := back(each, of_holder)) is not None)
 
-    world = replace_fields(world, lights=kept(world.lights)) if world else None
+    def moved_by(joint: Joint) -> str | None:
+        written = (elements.get(("joint", name)) for name in written_names(joint))
+        found = next((_body_around(each) for each in written if each is not None), None)
+        return found or bodies.get(joint.child or "", joint.child)
+
+    world = replace_fields(world, lights=kept(world.lights, None)) if world else None
     return SensorsBack(
-        [replace_fields(each, sensors=kept(each.sensors), lights=kept(each.lights)) for each in links],
-        [replace_fields(each, sensors=kept(each.sensors)) for each in joints],
+        [
+            replace_fields(
+                each,
+                sensors=kept(each.sensors, bodies[each.name]),
+                lights=kept(each.lights, bodies[each.name]),
+            )
+            for each in links
+        ],
+        [replace_fields(each, sensors=kept(each.sensors, moved_by(each))) for each in joints],
         world,
         frozenset(used),
     )
+
+
+_IN_BODIES = frozenset({"site", "camera", "light"})
+
+
+def _body_around(element: XmlElement) -> str | None:
+    """The name of the body that an element is in; None in the world."""
+    body = next(element.iterancestors("body"), None)
+    return None if body is None else body.get("name") or ""
 
 
 def _part_name(line: str) -> PartName:

@@ -35,6 +35,7 @@ from twinform.ir.transform import Transform, rounded
 from twinform.passes.carriers.absorb import CarrierError, absorb
 from twinform.passes.carriers.annotations import find_annotation, without_annotation
 from twinform.passes.carriers.mjcf_texts import AXES, LOOK_OF, SHAPE_OF, TURN, Tagged, digest_of, look_parts
+from twinform.passes.carriers.said_by_mjcf import LIMITED
 from twinform.passes.legalise.to_mjcf.contact_plan import MASKS
 from twinform.passes.legalise.to_mjcf.friction import friction_of, rolling_of, torsional_part, with_rolling
 from twinform.passes.legalise.to_mjcf.kept_mjcf import KEPT
@@ -77,7 +78,8 @@ class Spellings:
         elif isinstance(node, Surface) and isinstance(partial, Surface):
             made = _with_torsion(*_with_second_coefficient(node, partial))
         elif isinstance(node, Joint) and isinstance(partial, Joint):
-            made = _with_turn(_with_type(node, partial), partial), without_annotation(partial, TURN)
+            kept = without_annotation(_without_position(node, partial), TURN)
+            made = _with_turn(_with_type(node, partial), partial), kept
         elif isinstance(node, Mimic) and isinstance(partial, Mimic):
             made = _with_reference(node, partial)
         elif isinstance(node, Limit) and isinstance(partial, Limit):
@@ -171,6 +173,22 @@ def _with_type(node: Joint, partial: Joint) -> Joint:
     if partial.type == "continuous" and is_limited:
         return node
     return node.copy(type=partial.type)
+
+
+def _without_position(node: Joint, partial: Joint) -> Joint:
+    """What is kept of a joint, without the only position that it could be at where the file has no range any more."""
+    if partial.type not in LIMITED:
+        return partial
+    return partial.copy(axis=_let_go(node.axis, partial.axis), axis2=_let_go(node.axis2, partial.axis2))
+
+
+def _let_go(axis: Axis | None, kept: Axis | None) -> Axis | None:
+    limit = kept.limit if kept is not None else None
+    if kept is None or limit is None or limit.lower is None or limit.lower != limit.upper:
+        return kept
+    own = axis.limit if axis is not None else None
+    is_limited = own is not None and (own.lower is not None or own.upper is not None)
+    return kept if is_limited else kept.copy(limit=limit.copy(lower=None, upper=None))
 
 
 def _with_turn(node: Joint, partial: Joint) -> Joint:
