@@ -5,7 +5,8 @@ from random import Random
 
 from lxml import etree
 
-from twinform.schemas import Version, XmlElement, parse_version, table
+from twinform.diagnostics import DiagnosticSink
+from twinform.schemas import Context, Version, XmlElement, parse_version, reader, table
 from twinform.schemas.facts import Fact, Table
 
 _DEEPEST = 7
@@ -30,6 +31,19 @@ _TEXTS = {
     "axes": ("xyz", "XYz"),
 }
 """Values of types that only MJCF has."""
+
+
+def read_tree(root: XmlElement, format: str, version: Version) -> Context:
+    """What the reader finds in a tree."""
+    context = Context(DiagnosticSink(), "", format, version)
+    reader(format, version).read(root, context)
+    return context
+
+
+def version_of(root: XmlElement, format: str) -> Version:
+    """The version that a tree declares; the first of URDF and the newest of others where there is no such version."""
+    declared, versions = root.get("version"), table(format).versions
+    return parse_version(declared if declared in versions else versions[0 if format == "urdf" else -1])
 
 
 def document(random: Random, format: str, version: str) -> bytes:

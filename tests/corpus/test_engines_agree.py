@@ -8,16 +8,13 @@ import pytest
 
 from testbed.corpus.files import CorpusFile
 from tests.corpus.portions import chunks
+from tests.schema_documents import read_tree, version_of
 from twinform.compiler.input.parsing import UnreadableError, parse, strip_default_namespace
 from twinform.diagnostics import DiagnosticSink, rules
 from twinform.schemas import (
-    Context,
     Version,
     XmlElement,
     libxml2_errors,
-    parse_version,
-    reader,
-    table,
     validate,
     xmlschema_errors,
 )
@@ -46,8 +43,8 @@ def _disagreement(file: CorpusFile) -> str | None:
     if root.tag not in _FORMATS:
         return None
     name = _FORMATS[str(root.tag)]
-    version = _version(root, name)
-    context = _read(root, name, version)
+    version = version_of(root, name)
+    context = read_tree(root, name, version)
     normative = xmlschema_errors(root, name, version)
     default = not libxml2_errors(root, name, version) and context.structural == 0
     names = not _names_clash(root, name, version)
@@ -57,20 +54,6 @@ def _disagreement(file: CorpusFile) -> str | None:
     if any(found.rule is rules.SCHEMA_DISAGREEMENT for found in context.sink.diagnostics):
         return f"{file.name}: {context.sink.diagnostics[-1].message}"
     return None
-
-
-def _version(root: XmlElement, name: str) -> Version:
-    declared = root.get("version")
-    versions = table(name).versions
-    if declared in versions:
-        return parse_version(declared)
-    return parse_version(versions[0 if name == "urdf" else -1])
-
-
-def _read(root: XmlElement, name: str, version: Version) -> Context:
-    context = Context(DiagnosticSink(), "", name, version)
-    reader(name, version).read(root, context)
-    return context
 
 
 def _names_clash(root: XmlElement, name: str, version: Version) -> bool:

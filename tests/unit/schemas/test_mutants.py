@@ -8,6 +8,7 @@ import pytest
 from lxml import etree
 
 from testbed.mutated.mutants import mutant
+from tests.schema_documents import read_tree, version_of
 from twinform.diagnostics import DiagnosticSink
 from twinform.schemas import (
     Context,
@@ -16,9 +17,7 @@ from twinform.schemas import (
     XmlElement,
     has_prefixed_attributes,
     libxml2_errors,
-    parse_version,
     reader,
-    table,
     validate,
     xmlschema_errors,
 )
@@ -42,13 +41,13 @@ def test_a_mutant_gets_one_verdict(seed: int):
     for _ in range(EACH):
         root = mutant(random.choice(_sources()), random)
         name, version = _version(root)
-        table_reading = _read(root, name, version)
+        table_reading = read_tree(root, name, version)
         default = table_reading.structural == 0 and not libxml2_errors(root, name, version)
         normative = not xmlschema_errors(root, name, version, names=False)
         assert default is normative, etree.tostring(root).decode()
         engines: tuple[Engine, ...] = ("libxml2", "xmlschema")
         for engine in engines:
-            context = _read(root, name, version)
+            context = read_tree(root, name, version)
             validate(root, context, engine)
             messages = [found.message for found in context.sink.diagnostics]
             assert messages == [found.message for found in table_reading.sink.diagnostics], etree.tostring(
@@ -72,17 +71,10 @@ def test_a_reader_that_trusts_the_schema_reports_the_same():
 def test_mutants_are_of_both_kinds():
     random = Random(0)
     mutants = [mutant(random.choice(_sources()), random) for _ in range(100)]
-    taken = [root for root in mutants if _read(root, *_version(root)).structural == 0]
+    taken = [root for root in mutants if read_tree(root, *_version(root)).structural == 0]
     assert 5 < len(taken) < 95
 
 
 def _version(root: XmlElement) -> tuple[str, Version]:
     name = "urdf" if root.tag == "robot" else "sdf"
-    declared, versions = root.get("version"), table(name).versions
-    return name, parse_version(declared if declared in versions else versions[0 if name == "urdf" else -1])
-
-
-def _read(root: XmlElement, name: str, version: Version) -> Context:
-    context = Context(DiagnosticSink(), "", name, version)
-    reader(name, version).read(root, context)
-    return context
+    return name, version_of(root, name)
