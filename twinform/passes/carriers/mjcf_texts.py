@@ -94,11 +94,6 @@ def node_element(node: Node, kind: str) -> XmlElement:
     return node_xml("sdf", node, "sdf" if kind == DOCUMENT else kind, {TF: NAMESPACE})
 
 
-def node_data(node: Node, kind: str) -> str:
-    """The data of the carrier of a partial node."""
-    return xml_data(node_element(node, kind))
-
-
 def xml_data(xml: XmlElement) -> str:
     """A tree as the data of a carrier."""
     text = etree.tostring(xml, encoding="unicode")

@@ -141,9 +141,9 @@ def _project_onto_cone(smallest: float, middle: float, largest: float) -> Moment
 
 
 def second_moments(moments: Moments) -> Moments:
-    """The second moments of mass along the principal axes, in kg m^2: how far the mass spreads along each of them."""
-    half = sum(moments) / 2
-    return half - moments[0], half - moments[1], half - moments[2]
+    """The second moments of mass along three axes, in kg m^2, of the moments about them: how far the mass spreads."""
+    x, y, z = (moment / 2 for moment in moments)  # halved first: the sum of two may be no double
+    return y + z - x, x + z - y, x + y - z
 
 
 def distance(one: Symmetric, other: Symmetric) -> float:
@@ -241,7 +241,7 @@ class PlausibilityCheck:
         # ends.
         reaches = ((length + 2 * slack) / 2 for length in size)
         most = (reach * reach * body.mass for reach in reaches)
-        spread = zip(_second_moments(body.inertia), most, _AXES, strict=True)
+        spread = zip(second_moments(body.inertia[:3]), most, _AXES, strict=True)
         factor, axis = max((found / limit if limit else 0.0, axis) for found, limit, axis in spread)
         if factor > self.room.most and sum(body.inertia[:3]) >= self.room.felt:
             message = (
@@ -252,7 +252,7 @@ class PlausibilityCheck:
             where = _place(inertial.inertia, inertial)
             self.sink.report(rules.OVERSIZED_INERTIA, message, where, found=found, expected=expected)
         even = sum(length * length for length in size) / 12 * body.mass
-        part = sum(_second_moments(body.inertia)) / even if even else 1.0
+        part = sum(second_moments(body.inertia[:3])) / even if even else 1.0
         if 0 < part < self.room.least:
             message = (
                 f"the inertia of link {link.name!r} is too small for its shapes: "
@@ -279,13 +279,6 @@ class PlausibilityCheck:
 def _place(part: Node | None, inertial: Inertial) -> Location:
     """Where a part of an `<inertial>` is written; the whole of it where a pass has made the part."""
     return part.location if part is not None and part.source else inertial.location
-
-
-def _second_moments(inertia: Symmetric) -> tuple[float, float, float]:
-    """The second moments of the mass about its center along x, y and z, in kg m^2."""
-    xx, yy, zz, *_ = inertia
-    x, y, z = xx / 2, yy / 2, zz / 2  # halved first: the sum of two may be no double
-    return y + z - x, x + z - y, x + y - z
 
 
 def _format_box(box: Bounds) -> str:

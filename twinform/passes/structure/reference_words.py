@@ -5,7 +5,6 @@ are names of links or joints, the word contains `joint`, `link`, `body` or `fram
 """
 
 from collections.abc import Iterator
-from typing import NamedTuple
 
 from twinform.dataclass import dataclass
 from twinform.ir import Element, Model, Node, Plugin, ReferenceKind, walk
@@ -21,15 +20,6 @@ _WHOLE: dict[str, ReferenceKind] = {
 # and `link` before `frame`.
 _PARTS: dict[str, ReferenceKind] = {"joint": "joint", "link": "link", "body": "link", "frame": "frame"}
 _NOT_NAMES = frozenset({"frames", "framerate", "frame_rate", "update_frame", "joint_state_topic", "visualize_frame"})
-
-
-class WordReference(NamedTuple):
-    """A text or attribute of an element that refers to a part; `attribute` is empty for the text."""
-
-    element: Element
-    attribute: str
-    kind: ReferenceKind
-    value: str
 
 
 def kind_of_word(word: str) -> ReferenceKind | None:

@@ -28,7 +28,7 @@ from twinform.ir import (
     Visual,
 )
 from twinform.ir.record import field_values, fields_of
-from twinform.passes.carriers.mjcf_texts import node_data, parse_text_name, read_node, text_name
+from twinform.passes.carriers.mjcf_texts import node_element, parse_text_name, read_node, text_name, xml_data
 from twinform.passes.carriers.partial_nodes import IDENTITY, Merging, remainder
 from twinform.passes.carriers.said_by_mjcf import said_by_mjcf
 from twinform.testing import strategies
@@ -69,7 +69,7 @@ def test_what_is_said_and_the_remainder_are_the_node(node: Node) -> None:
 def test_a_remainder_comes_back_from_its_text(node: Link | Joint) -> None:
     left, kind = remainder(node, said_by_mjcf), type(node).__name__.lower()
     if left is not None:
-        assert read_node(node_data(left, kind), kind, Source("x.xml", 7, None, "text", None)) == left
+        assert read_node(xml_data(node_element(left, kind)), kind, Source("x.xml", 7, None, "text", None)) == left
 
 
 _LINK = Link(
