@@ -63,7 +63,7 @@ def measure(sample: Sample) -> Findings:
 
 
 def _broken(file: CorpusFile, why: str) -> Examined:
-    return Examined(file.name, well_formed=False, faults=(why,))
+    return Examined(file.name, faults=(why,))
 
 
 def _examine_xacro(file: CorpusFile) -> Expanded:

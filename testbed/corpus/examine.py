@@ -10,7 +10,7 @@ from pathlib import Path
 import twinform
 from testbed.corpus.files import CorpusFile
 from testbed.corpus.there_and_back import robots, taken_there
-from testbed.oracles.xml_trees import first_difference, is_well_formed
+from testbed.oracles.xml_trees import first_difference
 from twinform.compiler import LoadResult
 from twinform.compiler.audit import audit
 from twinform.diagnostics import Diagnostic
@@ -30,7 +30,6 @@ class Examined:
     """
 
     name: str
-    well_formed: bool
     accepted: bool = False
     refused_by: tuple[str, ...] = ()
     converted: bool = False
@@ -54,7 +53,7 @@ def examined(files: tuple[CorpusFile, ...]) -> tuple[Examined, ...]:
 def examine(file: CorpusFile) -> Examined:
     """Check a file, convert it to the other format, and write it in its own; no exception comes out of it."""
     path, data = file.path, file.path.read_bytes()
-    found = Examined(file.name, well_formed=is_well_formed(data))
+    found = Examined(file.name)
     start = time.perf_counter()
     loaded = _checked(path)
     if isinstance(loaded, str):
