@@ -9,6 +9,7 @@ from typing import TypeVar
 from twinform.compiler.input.mjcf.carried_texts import CarriedText, nodes_of, report_stale
 from twinform.compiler.input.mjcf.joined_joints import join_joints
 from twinform.compiler.input.mjcf.merge_parts import merge_parts
+from twinform.compiler.input.mjcf.models_of_world import with_models
 from twinform.compiler.input.mjcf.names import safe_name
 from twinform.compiler.input.mjcf.one_model import one_model
 from twinform.compiler.input.mjcf.renamed_parts import renamed_parts
@@ -103,7 +104,8 @@ class _Merged:
         for stale in self.merging.stale:
             what = f"{type(stale).__name__.lower()} {getattr(stale, 'name', None) or ''}".strip()
             report_stale(self.sink, f"what a carrier holds of the {what} belongs to nothing in the file", stale.source)
-        return self._in_version(self._as_document(self._restored(model)))
+        is_of_world = self.world is not None or self._are_several
+        return self._in_version(self._as_document(self._restored(with_models(model) if is_of_world else model)))
 
     def _named(self, model: Model) -> Model:
         """The model whose parts have the names that they had before they were written."""
@@ -211,8 +213,7 @@ class _Merged:
         # A document of MJCF keeps the defaults of MJCF, and this one was of SDF.
         source = self.lowered.source and self.lowered.source._replace(step="sdf")
         document = Document.unchecked(format=Format.SDF, version=newest, source=source)
-        several = self.around is not None and find_annotation(self.around, SEVERAL) is not None
-        if several:
+        if self._are_several:
             alone = self._as_world(model, World.unchecked(name=model.name))
             holder = settle_contacts(alone)
             parts = {"models": holder.models, "lights": alone.lights}
@@ -238,6 +239,11 @@ class _Merged:
         found = [part.element for part in parts if part.element and part.element.name == name]
         theirs = ((each.get("prefix") or "", each.get("uri") or "") for each in found)
         return (*((prefix, uri) for prefix, uri in theirs if uri and prefix != TF), (TF, NAMESPACE))
+
+    @property
+    def _are_several(self) -> bool:
+        """Whether these were several models beside each other, in no world."""
+        return self.around is not None and find_annotation(self.around, SEVERAL) is not None
 
     def _as_world(self, model: Model, partial: World) -> World:
         lowered = self.lowered.worlds[0] if self.lowered.worlds else World.unchecked(name=partial.name)

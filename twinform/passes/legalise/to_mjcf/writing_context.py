@@ -266,8 +266,11 @@ class MjcfContext:
     def wish(self, kind: str, scope: str, own: str) -> str:
         """The name that a part in a scope should have in MJCF: its own, with the names of the models around it.
 
-        What was read of one file of MJCF has its own names again, but for what is in nested models, which MJCF lacks.
+        What was read of one file of MJCF has its own names again, but for what is in nested models, which MJCF lacks;
+        and so has what was put into a model of a made name.
         """
+        if scope in self._made_scopes and own not in self.names.get(kind, ()):
+            return own
         in_model = scope.partition(SCOPE)[2] if isinstance(self.holder, World) else scope
         wanted = in_model + own
         return wanted if self.is_of_mjcf and wanted not in self.names.get(kind, ()) else scope + own
@@ -285,6 +288,13 @@ class MjcfContext:
             self.former_names[kind, scope + old] = part.name
             return part.name
         return old
+
+    @cached_property
+    def _made_scopes(self) -> frozenset[str]:
+        """The scopes of models in a world of SDF that were made for bodies, which have no such names in MJCF."""
+        if self.is_of_mjcf or not isinstance(self.holder, World):
+            return frozenset()
+        return frozenset(scope for scope, model in self.models if is_made_name(model))
 
     @cached_property
     def _names_by_scope(self) -> Mapping[str, frozenset[str]]:

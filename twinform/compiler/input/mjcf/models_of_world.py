@@ -1,0 +1,71 @@
+"""Models for links that belong to none: a world of SDF holds no links, and bodies are added and renamed at will.
+
+What bodies of MJCF are called tells which model they are in: `arm::hand` is the link `hand` in the model `arm`. A body
+of any other name, with what joints connect to it, is a model of its own, which is called after it.
+"""
+
+from collections.abc import Iterator
+
+from twinform.ir import Element, Format, Frame, Joint, Model, Opaque
+from twinform.ir.frames import WORLD
+from twinform.ir.scopes import SCOPE
+from twinform.passes.carriers.annotations import MADE_NAME, annotation, find_annotation
+from twinform.passes.legalise.changed_names import Names, renamed
+from twinform.passes.shared.nodes import unique_name
+from twinform.passes.shared.poses import NESTED
+
+
+def with_models(model: Model) -> Model:
+    """The flattened model of a world, in which each link has the name of a model before its own.
+
+    Models that no carrier tells of have frames that stand for them, where their first links are.
+    """
+    loose = [each.name for each in model.links if SCOPE not in each.name]
+    names: Names = {}
+    frames: list[Frame] = []
+    taken = {_top(each.name) for part in (model.links, model.joints, model.frames) for each in part} - {*loose}
+    for links in _connected(model, loose):
+        name = unique_name(links[0], taken)
+        taken.add(name)
+        names |= {("link", each): name + SCOPE + each for each in links}
+        names |= {("joint", each.name): name + SCOPE + each.name for each in model.joints if _is_of(each, links)}
+        inside = (each for each in model.frames if each.attached_to in links and SCOPE not in each.name)
+        names |= {
+            ("frame", each.name): name + SCOPE + each.name for each in inside if find_annotation(each, NESTED) is None
+        }
+        frames.append(_frame_of(name, name + SCOPE + links[0], is_made=True))
+    model = renamed(model, names, Format.SDF) if names else model
+    known = {each.name for each in (*model.frames, *frames)}
+    for link in model.links:
+        name = _top(link.name)
+        if name not in known:
+            frames.append(_frame_of(name, link.name, is_made=False))
+            known.add(name)
+    return model.copy(frames=(*model.frames, *frames)) if frames else model
+
+
+def _top(name: str) -> str:
+    return name.partition(SCOPE)[0]
+
+
+def _connected(model: Model, loose: list[str]) -> Iterator[list[str]]:
+    """Yield the loose links that joints connect to each other, in their order."""
+    groups = {name: [name] for name in loose}
+    for joint in model.joints:
+        one, other = groups.get(joint.parent or ""), groups.get(joint.child or "")
+        if one is not None and other is not None and one is not other:
+            one += other
+            groups |= dict.fromkeys(other, one)
+    yield from {id(each): each for each in groups.values()}.values()
+
+
+def _is_of(joint: Joint, links: list[str]) -> bool:
+    return SCOPE not in joint.name and joint.child in links and joint.parent in {WORLD, *links}
+
+
+def _frame_of(name: str, link: str, *, is_made: bool) -> Frame:
+    """The frame that stands for a model; one whose name is made has none in the names of its bodies."""
+    made = annotation(MADE_NAME, name).element
+    nested = annotation(NESTED).element or Element.unchecked(name=NESTED)
+    nested = nested.copy(children=(made,)) if is_made and made is not None else nested
+    return Frame.unchecked(name=name, attached_to=link, opaque=(Opaque.unchecked(element=nested),))
