@@ -4,7 +4,7 @@ A visual is a geom that touches nothing (`contype` and `conaffinity` 0) and weig
 which viewers show; collisions are in group 3, which they hide, where the model has any visuals. Sizes are half sizes.
 """
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from typing import NamedTuple, TypeVar
 
 from twinform.diagnostics import rules
@@ -64,13 +64,14 @@ def geom_elements(context: MjcfContext, body: Body) -> list[Element]:
     twins = {each.name: each for each in body.link.visuals if find_annotation(each, SAME_GEOM) is not None}
     hides = any(_kept_group(each) in {"1", "2"} for each in body.link.visuals)
     parted = {each.name: each for each in body.link.collisions if each.name in twins}
-    done: set[int] = set()
+    done, shown = set[int](), set[str]()
     for collision in body.link.collisions:
         if (shape := _shape_of(context, body, collision)) is not None:
             twin = twins.get(collision.name)
             more = touch_of(context, body, collision)
             if twin is not None and (twin.geometry, twin.pose) == (collision.geometry, collision.pose):
                 done.add(id(twin))
+                shown.add(_kept_group(collision))
                 more = [*more, *look_of(context, body, twin, collision)]
             else:
                 more = [*more, *_group(context, collision, _TOUCHED, hides=hides)]
@@ -82,7 +83,7 @@ def geom_elements(context: MjcfContext, body: Body) -> list[Element]:
     for visual in body.link.visuals:
         if id(visual) not in done and (shape := _shape_of(context, body, visual)) is not None:
             # Beside visuals in their own group, one that touches too would count as hidden.
-            group = [] if done else _group(context, visual, _SEEN, hides=hides)
+            group = _beside_twins(visual, shown) if done else _group(context, visual, _SEEN, hides=hides)
             weightless = () if context.is_of_mjcf or _kept(visual, "density") else _WEIGHTLESS
             looks = look_of(context, body, visual, other := parted.get(visual.name))
             if other is not None and (material := _kept(other, "material")):  # only the collision was changed
@@ -135,6 +136,14 @@ def _group(context: MjcfContext, part: Visual | Collision, group: int, *, hides:
         return [] if kept or (is_touched and not context.has_visuals) else [("group", str(group))]
     is_hidden = int(kept or 0) >= _TOUCHED or (hides and kept in {"", "0"}) or _is_transparent(context, part)
     return [("group", str(group))] if is_touched and not is_hidden else []
+
+
+def _beside_twins(visual: Visual, shown: Collection[str]) -> list[tuple[str, Value]]:
+    """The group of a visual beside collisions that are `shown` in their groups: it hides them, if it came from others.
+
+    Reading takes what touches for hidden, if it is in group 0, and what is only seen is in another one.
+    """
+    return [("group", "0")] if _kept_group(visual) in {"1", "2"} and not {"", "0"}.isdisjoint(shown) else []
 
 
 def _kept_group(part: Visual | Collision) -> str:

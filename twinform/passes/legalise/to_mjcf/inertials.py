@@ -12,7 +12,7 @@ from twinform.ir.defaults import MASS, MOMENT
 from twinform.ir.document import Format
 from twinform.ir.solids import Symmetric, principal_axes, principal_moments, tensor, turned
 from twinform.ir.transform import Matrix3, Transform
-from twinform.passes.carriers.token_mass import MOMENTS, TOKEN_MOMENT, has_token_mass, is_chain_token
+from twinform.passes.carriers.token_mass import MOMENTS, TOKEN_MASS, TOKEN_MOMENT, has_token_mass, is_chain_token
 from twinform.passes.legalise.to_mjcf.elements import Value, make_element, orientation, position
 from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements, with_kept
 from twinform.passes.legalise.to_mjcf.writing_context import Body, MjcfContext
@@ -86,7 +86,9 @@ def inertial_elements(context: MjcfContext, body: Body) -> list[Element]:
         return []
     weight = weight_of(link)
     if weight.is_nothing:
-        return [each for each in kept_elements(link) if each.name == "inertial"]
+        return [each for each in kept_elements(link) if each.name == "inertial" and _is_massless(each)]
+    if weight.mass == 0.0 and context.is_of_mjcf:  # beside an inertia that was edited, since it is read as a token
+        weight = weight._replace(mass=TOKEN_MASS)
     at = context.resolve(link.inertial.pose if link.inertial else None, body)
     inertia, axes = _in_writable_axes(_possible(context, link, weight.inertia))
     at = at if axes is None else at.compose(axes)
@@ -99,6 +101,11 @@ def inertial_elements(context: MjcfContext, body: Body) -> list[Element]:
         rest = [("quat", turn), ("mass", weight.mass), ("diaginertia", inertia[:3])]
     source = link.inertial.source if link.inertial else None
     return [with_kept(make_element("inertial", [*attributes, *rest], (), source), link)]
+
+
+def _is_massless(inertial: Element) -> bool:
+    """Whether an inertial of MJCF has no mass; one that was given a mass has lost to what the link says."""
+    return float(inertial.get("mass") or 0.0) <= MOST_FOR_NOTHING
 
 
 def _in_writable_axes(inertia: Symmetric) -> tuple[Symmetric, Transform | None]:

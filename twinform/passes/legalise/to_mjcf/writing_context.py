@@ -283,6 +283,8 @@ class MjcfContext:
         old = source_name(part)
         if old == part.name or not self.is_of_mjcf:
             return old
+        if isinstance(part, Link) and scope + old in self.tree.links:  # a site that is a link by now had this name too
+            return part.name
         is_told_apart = old in self._names_by_scope.get(scope, ()) and part.name.startswith(old)
         if _is_plain(old) and not is_told_apart:
             self.former_names[kind, scope + old] = part.name
