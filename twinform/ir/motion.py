@@ -7,6 +7,7 @@ from typing import Protocol, TypeVar
 from twinform.ir.groups import Groups
 from twinform.ir.joint import Axis, Joint
 from twinform.ir.node import Vector3
+from twinform.ir.scopes import SCOPE
 from twinform.ir.transform import Transform, times
 
 FULL_TURN = 2 * math.pi
@@ -54,7 +55,7 @@ def axes_of(joint: Joint) -> tuple[Axis, ...]:
 
 
 def spanning_tree(joints: Iterable[AnyJoint]) -> Mapping[str, AnyJoint]:
-    """Choose the joints that make a tree, by child link: of several, a fixed one, or the first by name."""
+    """Choose the joints that make a tree, by child link: of several, the first one of the innermost model."""
     return _grown(joints)[0]
 
 
@@ -66,7 +67,8 @@ def taken_for_tree(joints: Iterable[AnyJoint], others: Iterable[AnyJoint]) -> li
 def _grown(joints: Iterable[AnyJoint], others: Iterable[AnyJoint] = ()) -> tuple[dict[str, AnyJoint], list[AnyJoint]]:
     above, taken, groups = dict[str, AnyJoint](), list[AnyJoint](), Groups()
     ranked = [*((joint, False) for joint in joints), *((joint, True) for joint in others)]
-    for joint, is_other in sorted(ranked, key=lambda each: (each[0].type != "fixed", each[0].name)):
+    # Engines build a nested model before what holds it, and take joints in the order of the file.
+    for joint, is_other in sorted(ranked, key=lambda each: -each[0].name.count(SCOPE)):
         if joint.child in above or groups.find(joint.parent) == joint.child:
             continue
         if is_other:

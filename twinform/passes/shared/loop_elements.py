@@ -1,7 +1,7 @@
 """Elements of URDF that close a loop, such as Isaac's `<loop_joint>`, as joints of SDF, and joints as such elements."""
 
 import math
-from collections.abc import Container, Iterator, Mapping
+from collections.abc import Container, Iterable, Iterator, Mapping
 
 from twinform.ir import Axis, Element, Format, Joint
 from twinform.ir.defaults import AXIS
@@ -75,6 +75,18 @@ def read_loop(foreign: ForeignJoint, name: str, graph: FrameGraph, links: Contai
     )
     said = {"as": foreign.word, "type": None if word == kind else word, **offset_attributes(offset)}
     return with_annotation(joint, EXTENSION, attributes=said) if annotated else joint
+
+
+def behind_tree(loops: Iterable[Joint], joints: Iterable[Joint]) -> Iterator[Joint]:
+    """Yield joints that close loops with the line of the joint that moves their child, where that comes later.
+
+    Joints are written in the order of their lines, and readers of SDF take the first one of a link for the tree.
+    """
+    moving = {joint.child: joint.source for joint in joints if joint.source is not None}
+    for loop in loops:
+        own, tree = loop.source, moving.get(loop.child)
+        is_early = own is not None and tree is not None and own.file == tree.file and own.line < tree.line
+        yield loop.copy(source=own._replace(line=tree.line)) if own and tree and is_early else loop
 
 
 def write_loop(joint: Joint, in_parent: Transform, in_child: Transform) -> Element | None:

@@ -11,7 +11,7 @@ from twinform.ir.groups import Groups
 from twinform.passes.carriers.annotations import came_from
 from twinform.passes.carriers.carriers import Keeper, carry, to_element
 from twinform.passes.framework.pass_base import ModelPass
-from twinform.passes.shared.loop_elements import OpenLoopError, read_loop, require_closed
+from twinform.passes.shared.loop_elements import OpenLoopError, behind_tree, read_loop, require_closed
 from twinform.passes.shared.nodes import reserve_name
 
 
@@ -42,12 +42,12 @@ class CloseLoops(ModelPass):
         links = frozenset(link.name for link in model.links)
         taken = {node.name for node in (*model.links, *model.joints, *(each.joint for each in loops))}
         graph, fixed = FrameGraph(model), _fixed_groups(model)
-        joints, left, between = list(model.joints), list[Opaque](), Counter[str]()
+        closing, left, between = list[Joint](), list[Opaque](), Counter[str]()
         for each in loops:
             name = each.joint.name or reserve_name(_name_loop(each.joint, between), taken)
             try:
                 _require_motion(each.joint, fixed)
-                joints.append(read_loop(each, name, graph, links, annotated=annotated))
+                closing.append(read_loop(each, name, graph, links, annotated=annotated))
             except (OpenLoopError, FrameError) as error:
                 called = f"<{each.word}> {each.joint.name!r}" if each.joint.name else f"<{each.word}>"
                 message = f"{called} closes no loop in SDF: {error}"
@@ -55,7 +55,7 @@ class CloseLoops(ModelPass):
                 keeper.account(rules.OPEN_LOOP, message, each.part.location, each.part.weight)
                 left.append(each.part)
         opaque = tuple(part for part in model.opaque if not closes_loop(part))
-        model = model.copy(joints=tuple(joints), opaque=opaque)
+        model = model.copy(joints=(*model.joints, *behind_tree(closing, model.joints)), opaque=opaque)
         return carry(model, left, "urdf") if self.carriers else model
 
 

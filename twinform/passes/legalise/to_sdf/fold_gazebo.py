@@ -38,6 +38,7 @@ from twinform.passes.legalise.to_sdf.gazebo_sorting import (
     places_of,
 )
 from twinform.passes.shared.gazebo_tags import JOINT_TAGS, LINK_FIELDS, LINK_TAGS, MODEL_TAGS
+from twinform.passes.shared.loop_elements import behind_tree
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 _FoldPart: TypeAlias = Callable[[Any, list[GazeboExtension]], Any]
@@ -189,11 +190,11 @@ class _Fold:
 
     def _model(self, model: Model, extensions: list[GazeboExtension]) -> Model:
         sorter = self._sort(extensions, MODEL_TAGS, _NOT_OF_MODELS)
-        links, joints, frames = len(model.links), len(model.joints), len(model.frames)
+        links, own, frames = len(model.links), model.joints, len(model.frames)
         model = self._merge(set_model_fields(model, sorter.values), "model", sorter.rest)
         return model.copy(
             links=(*model.links[:links], *map(with_mass, model.links[links:])),
-            joints=(*model.joints[:joints], *map(self._extension, model.joints[joints:])),
+            joints=(*own, *map(self._extension, behind_tree(model.joints[len(own) :], own))),
             frames=(*model.frames[:frames], *self._own_frames(model.frames[frames:])),
         )
 
