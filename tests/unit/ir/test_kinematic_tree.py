@@ -63,6 +63,16 @@ def test_what_closes_a_loop_is_told_apart():
     assert sorted(tree.below(tree.roots[0])) == ["a", "b", "c"]
 
 
+def test_a_joint_around_a_nested_model_closes_its_loop():
+    tree = _tree("""<sdf version="1.11"><model name="m"><link name="base"/>
+        <joint name="a_pin" type="ball"><parent>base</parent><child>inner::tip</child></joint>
+        <model name="inner"><link name="root"/><link name="tip"/>
+          <joint name="slide" type="prismatic"><parent>root</parent><child>tip</child></joint></model>
+        <joint name="a_weld" type="fixed"><parent>base</parent><child>inner::root</child></joint></model></sdf>""")
+    assert [each.name for each in tree.closing] == ["a_pin"]
+    assert tree.roots == ("base",)
+
+
 def test_joints_of_a_world_hold_its_models_together():
     tree = _tree(WORLD)
     assert tree.chain("m::l", "n::l")[0].joint.name == "j"
