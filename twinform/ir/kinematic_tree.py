@@ -29,7 +29,7 @@ class KinematicTree:
     """The links and joints of a model or world.
 
     Those of nested models are called `inner::link`, as they are in the scope of the whole. Of several with one name the
-    first is meant. Of joints that close a loop, the first of the innermost model is in the tree; `closing` has the rest.
+    first is meant. Of joints that close a loop the first of the innermost model is in the tree; `closing` has others.
 
     Attributes:
         links: by their names, in the order of the file.
