@@ -119,7 +119,8 @@ def _of_sdf(file: EditedFile, result: str) -> Iterator[str]:
         except Exception as error:  # Drake has no narrower type
             raise NotReadError("Drake") from error
         try:
-            yield from differences_from_drake(path, made)
+            # Drake reads no gravity of a file, and a model keeps that of MJCF as what only MJCF says.
+            yield from differences_from_drake(path, made, gravity=tuple(map(float, made.model.opt.gravity)))
         except UncomparableError as error:
             raise NotReadError("Drake with a joint that is compared") from error
 

@@ -25,14 +25,16 @@ class UncomparableError(Exception):
     """A model has a joint that is not compared; the message names it."""
 
 
-def differences_from_drake(path: Path, made: Compiled, seed: int = 1) -> list[str]:
-    """Return a line for each difference; none where both programs see one robot.
+def differences_from_drake(
+    path: Path, made: Compiled, seed: int = 1, gravity: tuple[float, ...] = _GRAVITY
+) -> list[str]:
+    """Return a line for each difference; none where both programs see one robot, in this gravity.
 
     Raises:
         Exception: Drake cannot read the file; it has no narrower type for that.
     """
     plant, bodies, joints, _ = drake.parts(path)
-    plant.mutable_gravity_field().set_gravity_vector(np.array(_GRAVITY))
+    plant.mutable_gravity_field().set_gravity_vector(np.array(gravity))
     match = _Match(plant, bodies, joints, made)
     if found := list(match.unmatched()):
         return found

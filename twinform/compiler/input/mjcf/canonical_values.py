@@ -18,23 +18,14 @@ from twinform.compiler.input.mjcf.quaternions import (
     unit,
 )
 from twinform.diagnostics import rules
+from twinform.passes.legalise.to_mjcf.kept_mjcf import LIMITED, WITHOUT_CONTROL_LIMIT
 from twinform.schemas import XmlElement
 
 _TURNED = frozenset({"body", "frame", "geom", "site", "camera", "inertial", "flexcomp"})
 """The elements that have an orientation."""
-_LIMITED = {
-    "range": "limited",
-    "ctrlrange": "ctrllimited",
-    "forcerange": "forcelimited",
-    "actrange": "actlimited",
-    "actuatorfrcrange": "actuatorfrclimited",
-}
-"""What says whether a range limits."""
 _ANGLES = ("range", "ref", "springref")
 _SPANNED = {"capsule": 2, "cylinder": 2, "box": 3, "ellipsoid": 3}
 """Shapes that may lie between two points, and how many numbers their size has."""
-_CONTROLS = frozenset({"damper", "adhesion", "orientation"})
-"""Actuators without `ctrllimited`."""
 
 
 def write_canonical_values(root: XmlElement, settings: CompilerSettings, findings: ElementFindings) -> None:
@@ -57,7 +48,9 @@ def write_canonical_values(root: XmlElement, settings: CompilerSettings, finding
     for each in (each for section in root.iterchildren("tendon") for each in section.iterchildren()):
         _write_limits(each, settings, findings, ("range", "actuatorfrcrange"))
     for each in (each for section in root.iterchildren("actuator") for each in section.iterchildren()):
-        names = ("forcerange", "actrange") if each.tag in _CONTROLS else ("ctrlrange", "forcerange", "actrange")
+        names = (
+            ("forcerange", "actrange") if each.tag in WITHOUT_CONTROL_LIMIT else ("ctrlrange", "forcerange", "actrange")
+        )
         _write_limits(each, settings, findings, names)
 
 
@@ -165,18 +158,18 @@ def _write_limits(
     for name in names:
         if element.tag == "muscle" and name == "range":
             continue
-        said = element.get(_LIMITED[name], "auto")
+        said = element.get(LIMITED[name], "auto")
         found = numbers_of(element, name, count=2)
         if said != "auto":
             continue
-        element.attrib.pop(_LIMITED[name], None)
+        element.attrib.pop(LIMITED[name], None)
         if found is None:
             continue
         if not settings.autolimits:
             message = f"{name!r} says a range and nothing says whether it limits, which autolimits='false' asks for"
-            hint = f"write {_LIMITED[name]}='true' or 'false'"
+            hint = f"write {LIMITED[name]}='true' or 'false'"
             findings.report(rules.AMBIGUOUS_LIMIT, element, message, f"@{name}", found=element.get(name), help=hint)
-        element.set(_LIMITED[name], "true" if found[0] < found[1] else "false")
+        element.set(LIMITED[name], "true" if found[0] < found[1] else "false")
 
 
 def _name_by_file(asset: XmlElement) -> None:

@@ -7,6 +7,7 @@ from twinform.compiler.input.mjcf.check_references import Named
 from twinform.compiler.input.mjcf.element_findings import ElementFindings
 from twinform.compiler.input.mjcf.number_lists import numbers_of
 from twinform.diagnostics import rules
+from twinform.passes.legalise.to_mjcf.kept_mjcf import TARGETS
 from twinform.schemas import XmlElement
 
 _RANGES = {
@@ -17,7 +18,6 @@ _RANGES = {
     "actuatorfrcrange": "actuatorfrclimited",
 }
 _ALWAYS_CONTROLLED = frozenset({"damper", "adhesion"})
-_TARGETS = ("joint", "jointinparent", "tendon", "site", "body", "slidersite")
 _SCALAR = frozenset({"hinge", "slide"})
 _OF_SCALAR_JOINTS = frozenset({"jointpos", "jointvel"})
 _OF_BALL_JOINTS = frozenset({"ballquat", "ballangvel"})
@@ -70,7 +70,7 @@ def _check_ranges(element: XmlElement, names: tuple[str, ...], findings: Element
 
 def _check_actuator(actuator: XmlElement, findings: ElementFindings) -> None:
     _check_ranges(actuator, ("ctrlrange", "forcerange", "actrange"), findings)
-    if not any(name in actuator.attrib for name in _TARGETS):
+    if not any(name in actuator.attrib for name in TARGETS):
         message = f"<{actuator.tag}> drives nothing: it has no joint, tendon, site or body"
         findings.report(rules.MISSING_ATTRIBUTE, actuator, message, expected="@joint")
     reach = numbers_of(actuator, "lengthrange", (0.0, 0.0), count=2) or (0.0, 0.0)

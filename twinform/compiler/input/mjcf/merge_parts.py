@@ -15,8 +15,8 @@ from twinform.compiler.input.mjcf.restore_loops import is_loop, loops_back
 from twinform.compiler.input.mjcf.restore_sensors import (
     restored_settings,
     sensors_back,
-    without_lights,
     without_parts_of_sensors,
+    without_sensors,
 )
 from twinform.compiler.input.mjcf.spellings import Spellings
 from twinform.compiler.input.mjcf.written_models import with_written_models, without_stand_ins
@@ -109,12 +109,14 @@ class _PartMerging:
 
     def in_document(self, document: Document) -> Document:
         """The document whose world has what a carrier holds of it; it is called as the file is."""
-        if self._world is None or not document.worlds:
+        if not document.worlds:
             return document
         world, *others = document.worlds
-        world = replace_fields(world, lights=without_lights(world.lights, self._parts))
-        world, partial = restored_settings(world, self._world.copy(name=world.name), self.root)
-        return document.copy(worlds=(self._merging.merge(world, partial), *others))
+        world = without_sensors(world, self._parts) if self._parts else world
+        if self._world is not None:
+            world, partial = restored_settings(world, self._world.copy(name=world.name), self.root)
+            world = self._merging.merge(world, partial)
+        return document.copy(worlds=(world, *others))
 
     def report_stale(self) -> None:
         """Report what belongs to nothing in the file."""

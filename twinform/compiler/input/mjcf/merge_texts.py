@@ -43,6 +43,7 @@ from twinform.passes.carriers.carriers import PREFIX as TF
 from twinform.passes.carriers.mjcf_texts import ATTACHED, DOCUMENT, PREFIXES, SEVERAL
 from twinform.passes.carriers.partial_nodes import WRITTEN, Merging, is_rest, written_names
 from twinform.passes.legalise.nested_models import NameScopes, RestoreNested
+from twinform.passes.legalise.to_mjcf.kept_mjcf import KEPT
 from twinform.passes.legalise.to_mjcf.rotors import with_rotors
 from twinform.passes.legalise.to_sdf.restore_frames import RestoreFrames
 from twinform.passes.sdf_versions import change_version, lower_meaning
@@ -153,6 +154,7 @@ class _Merged:
         )
         known = {each.name for each in between}
         self.links = [each for each in self.links if each.name not in whole or each.name not in known]
+        is_held = _is_held(model)  # as the file has it; a joint that a carrier has of a static model cannot move
         joints = without_stand_ins(model.copy(joints=joints), self.joints).joints
         links = self.merging.merge_all(between, tuple(without_annotation(each, WRITTEN) for each in self.links))
         ends = {WORLD, *(each.name for each in links), *(each.name for each in (*model.frames, *self.frames))}
@@ -161,7 +163,7 @@ class _Merged:
         model = model.copy(links=links, joints=joints, frames=frames)
         if partial is None:
             return self._let_go(model, made)
-        is_static = bool(partial.static) and _is_held(model)
+        is_static = bool(partial.static) and is_held
         if partial.static and not is_static:
             self._stale(f"model {model.name!r} is not static any more: something in it moves", partial)
             partial = partial.copy(static=None)
@@ -174,11 +176,14 @@ class _Merged:
         return partial.name if written in {None, partial.name} else safe_name(written or "")
 
     def _typed(self, joints: Iterable[Joint], ends: set[str]) -> Iterable[Joint]:
-        """The partial joints whose links are there."""
-        known = {each.name for each in joints}
+        """The partial joints whose links are there; one that could not move goes where the file has another now."""
+        known, held = {each.name for each in joints}, {each.child for each in joints}
         for each in self.joints:
-            if each.name in known or (each.parent in ends and each.child in ends):
+            is_held = not is_rest(each) and each.type != "gearbox" and each.child in held
+            if each.name in known or (each.parent in ends and each.child in ends and not is_held):
                 yield without_annotation(each, WRITTEN)
+            elif is_held:
+                self._stale(f"another joint holds what joint {each.name!r} held", each)
             else:
                 self._stale(f"there is nothing any more that joint {each.name!r} holds", each)
 
@@ -249,6 +254,9 @@ class _Merged:
         lowered = self.lowered.worlds[0] if self.lowered.worlds else World.unchecked(name=partial.name)
         # Without the mark of what was read of MJCF: this is the world of SDF that was written.
         lowered = without_usual(lowered.copy(lights=without_lights(lowered.lights, self.parts)))
+        # What is about one model of the file is about parts of several in the world, or none.
+        kept = tuple(part for part in model.opaque if part.element is not None and part.element.name == KEPT)
+        lowered = lowered.copy(opaque=(*lowered.opaque, *kept))
         lowered, partial = restored_settings(lowered, partial, self.root)
         # What only MJCF says about the trees of bodies, such as a sensor, is about parts of several models.
         kept = tuple(part for part in model.opaque if is_carrier(part, "mjcf"))

@@ -121,6 +121,16 @@ def without_lights(lights: tuple[Light, ...], parts: frozenset[PartName]) -> tup
     return tuple(each for each in lights if ("light", each.name or "") not in parts)
 
 
+def without_sensors(world: World, parts: frozenset[PartName]) -> World:
+    """The world without lights, sites and readings that stand for what comes back."""
+    return replace_fields(
+        world,
+        lights=without_lights(world.lights, parts),
+        frames=tuple(each for each in world.frames if not _is_site(each, parts)),
+        opaque=_opaque(world.opaque, parts),
+    )
+
+
 def without_empty(model: Model) -> Model:
     """The model without remainders that hold nothing."""
 

@@ -64,7 +64,7 @@ class AddedTexts(TextList):
         model, hidden = self.file.flat, self.file.hidden
         are_bits_usual = self.context.contacts.are_usual  # a file with no others has no masks
         links = [
-            self._without_seen(_as_mjcf_has_link(each, self.context, has_masks=not are_bits_usual))
+            self._without_seen(self._as_mjcf_has_link(each, has_masks=not are_bits_usual))
             for each in model.links
             if each.name not in hidden
         ]
@@ -144,9 +144,10 @@ class AddedTexts(TextList):
         return is_closing and joint.type in _OF_CONSTRAINTS and not (joint.axis or joint.sensors)
 
     def _is_needless(self, left: Node, node: Node) -> bool:
-        """Whether what is left of a node says nothing: notes alone that tell of no name, no URI and no chain."""
+        """Whether what is left of a node says nothing: notes alone that tell of no name, URI, chain or shape."""
         is_chain = isinstance(node, Joint) and node.type in CHAINS and node.type != "ball"
-        return is_bare(self._without_what_names(left, node)) and not (is_chain or _tells_of_names(left))
+        has_more = is_chain or _tells_of_names(left) or _has_more_shapes(left)
+        return is_bare(self._without_what_names(left, node)) and not has_more
 
     def _without_what_names(self, left: Node, node: Node) -> Node:
         """What is left of a node, without what a fixed joint is known by if it is read with the name that it has."""
@@ -158,6 +159,23 @@ class AddedTexts(TextList):
         ):
             return left.copy(parent=None, child=None, pose=None)
         return left
+
+    def _as_mjcf_has_link(self, link: Link, *, has_masks: bool) -> Link:
+        """A link without what geoms and bodies say of it, and what sensors are read with."""
+        self.file.part = link
+
+        def left_of(collision: Collision) -> Collision:
+            has_geom = self.file.geom_name(collision) is not None
+            return _as_mjcf_has_collision(collision, has_masks=has_masks) if has_geom else collision
+
+        return link.copy(
+            collisions=tuple(map(left_of, link.collisions)),
+            sensors=_unread_sensors(link.sensors, self.context),
+            lights=tuple(left for each in link.lights if (left := unread_light(each)) is not None),
+            inertial=None if weight_of(link).is_nothing else link.inertial,
+            kinematic=None if link.name in self.context.mocap else link.kinematic,
+            gravity=None if link.gravity is False else link.gravity,
+        )
 
     def _without_seen(self, link: Link) -> Link:
         """A link whose visuals have no material that the file shows as it is."""
@@ -231,6 +249,11 @@ def _has_uri(shape: Visual | Collision) -> bool:
     return isinstance(found, Mesh) and "://" in (found.uri or "")
 
 
+def _has_more_shapes(left: Node) -> bool:
+    """Whether what is left of a node has shapes for which there is no geom, if only empty ones."""
+    return any(isinstance(each, Visual | Collision) and not is_rest(each) for each in walk(left))
+
+
 def _tells_of_names(left: Node) -> bool:
     """Whether what is left of a node has a note of a file, shape or sensor that is named otherwise than in MJCF.
 
@@ -255,22 +278,10 @@ def _without_what_file_has(part: Link | Joint) -> Link | Joint:
     return bare.copy(lights=part.lights) if isinstance(part, Link) and part.lights else bare
 
 
-def _as_mjcf_has_link(link: Link, context: MjcfContext, *, has_masks: bool) -> Link:
-    """A link without what geoms and bodies say of it, and what sensors are read with."""
-    return link.copy(
-        collisions=tuple(_as_mjcf_has_collision(each, has_masks=has_masks) for each in link.collisions),
-        sensors=_unread_sensors(link.sensors, context),
-        lights=tuple(left for each in link.lights if (left := unread_light(each)) is not None),
-        inertial=None if weight_of(link).is_nothing else link.inertial,
-        kinematic=None if link.name in context.mocap else link.kinematic,
-        gravity=None if link.gravity is False else link.gravity,
-    )
-
-
 def _as_mjcf_has_collision(collision: Collision, *, has_masks: bool) -> Collision:
     """A collision without friction but for a second coefficient, or masks if the bits of its geom have them."""
     surface = collision.surface
-    if surface is None or collision.geometry is None or collision.geometry.shape is None:  # no geom stands for it
+    if surface is None:
         return collision
     surface = without_friction(without_elements(surface, _MASKS) if has_masks else surface)
     return collision.copy(surface=surface.copy(mu2=None) if surface.mu2 == surface.mu else surface)

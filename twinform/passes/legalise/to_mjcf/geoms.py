@@ -61,7 +61,8 @@ def geom_elements(context: MjcfContext, body: Body) -> list[Element]:
         FrameError: a frame is not known, or frames go round in a circle.
     """
     found: list[Element] = []
-    twins = {each.name: each for each in body.link.visuals if find_annotation(each, SAME_GEOM) is not None}
+    marked = (each for each in body.link.visuals if find_annotation(each, SAME_GEOM) is not None)
+    twins = {each.name: each for each in marked} if context.is_of_mjcf else {}
     hides = any(_kept_group(each) in {"1", "2"} for each in body.link.visuals)
     parted = {each.name: each for each in body.link.collisions if each.name in twins}
     done, shown = set[int](), set[str]()

@@ -28,6 +28,18 @@ SECTIONS = (
 )  # fmt: skip
 NO_SECTION = ""
 """The key of elements that stand beside the sections, where MuJoCo knows none: of a file to include, or a mistake."""
+LIMITED = {
+    "range": "limited",
+    "ctrlrange": "ctrllimited",
+    "forcerange": "forcelimited",
+    "actrange": "actlimited",
+    "actuatorfrcrange": "actuatorfrclimited",
+}
+"""The attributes that say whether a range limits, by those of the ranges."""
+WITHOUT_CONTROL_LIMIT = frozenset({"damper", "adhesion", "orientation"})
+"""Actuators without `ctrllimited`."""
+TARGETS = ("joint", "jointinparent", "tendon", "site", "body", "slidersite")
+"""The attributes of actuators that say what they drive."""
 SINGLE = frozenset({"compiler", "option", "size", "visual", "statistic"})
 """Sections that are one element with attributes: what is added to them is merged."""
 KNOWN = SINGLE.union(SECTIONS, (ROOT,))

@@ -6,10 +6,20 @@ was given actuators by a pass does too. In a world with several models the joint
 
 from collections.abc import Mapping
 
+from twinform.diagnostics import rules
 from twinform.ir import Element
 from twinform.ir.scopes import SCOPE
 from twinform.passes.legalise.to_mjcf.assets import file_path
-from twinform.passes.legalise.to_mjcf.kept_mjcf import KNOWN, NO_SECTION, SINGLE, kept_elements, merged
+from twinform.passes.legalise.to_mjcf.kept_mjcf import (
+    KNOWN,
+    LIMITED,
+    NO_SECTION,
+    SINGLE,
+    TARGETS,
+    WITHOUT_CONTROL_LIMIT,
+    kept_elements,
+    merged,
+)
 from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext, scope_of
 from twinform.passes.shared.document_uris import FILES_OF_MJCF
 from twinform.schemas.facts import named_kinds
@@ -18,6 +28,8 @@ _RENAMED = frozenset({"joint", "body", "site"})
 """The kinds of parts that may have another name in MJCF than where they were kept."""
 _BY_TYPE: Mapping[str, str] = {"objname": "objtype", "refname": "reftype"}
 """Attributes that name a part whose kind stands in another one."""
+_LIMITED_SECTIONS = frozenset({"actuator", "tendon"})
+"""Sections whose elements have ranges."""
 
 
 class _Names:
@@ -66,10 +78,41 @@ def add_kept_sections(context: MjcfContext) -> bool:
                 continue
             for part in kept.children:
                 renamed = _renamed(part, names, scope)
+                if kept.name == "actuator":
+                    _check_target(context, renamed)
+                if kept.name in _LIMITED_SECTIONS:
+                    renamed = _with_limits(renamed)
                 sections.add(kept.name, _with_paths(context, renamed) if kept.name == "asset" else renamed)
     for scope, reading in context.kept_readings:
         sections.add("sensor", _renamed(reading, names, scope))
     return bool(context.kept_readings) or any(kept_elements(each) for _, each in holders)
+
+
+def _check_target(context: MjcfContext, actuator: Element) -> None:
+    """Report an actuator from which somebody has taken what it drives: MuJoCo refuses it."""
+    if actuator.name != "plugin" and not any(actuator.get(name) for name in TARGETS):
+        where = actuator.location if actuator.source else context.holder.location
+        message = f"<{actuator.name}> {actuator.get('name') or ''}".rstrip() + " is kept, and drives nothing"
+        help_ = f"name what it drives, with {', '.join(TARGETS[:-1])} or {TARGETS[-1]}, or take it out"
+        context.sink.report(rules.MISSING_ATTRIBUTE, message, where, help=help_)
+
+
+def _with_limits(element: Element) -> Element:
+    """The element, whose ranges limit unless it says otherwise, as they do in MuJoCo."""
+    attributes = dict(element.attributes)
+    limits = LIMITED.keys() - ({"range"} if element.name == "muscle" else ())  # that is the range of its length
+    limits -= {"ctrlrange"} if element.name in WITHOUT_CONTROL_LIMIT else set()
+    bare = [name for name in attributes if name in limits and LIMITED[name] not in attributes]
+    said = ((LIMITED[name], "true" if _rises(attributes[name]) else "false") for name in bare)
+    return element.copy(attributes=(*element.attributes, *said)) if bare else element
+
+
+def _rises(value: str) -> bool:
+    try:
+        lower, upper = map(float, value.split())
+    except ValueError:
+        return False
+    return lower < upper
 
 
 class _Sections:

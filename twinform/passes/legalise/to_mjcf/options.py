@@ -29,11 +29,16 @@ def add_options(context: MjcfContext) -> None:
 
 def has_usual_settings(context: MjcfContext) -> bool:
     """Whether the options of the file say all settings of the world, and are read as these again."""
-    found = context.left.get(id(context.holder))
-    if found is None or untyped(found[0], "magnetic_field") is None:  # for which MuJoCo has another default
+    holder = context.holder
+    if untyped(holder, "magnetic_field") is None or not isinstance(holder, World):  # MuJoCo has another default for it
         return False
-    kept = (part.element for part in found[1].opaque if part.element is not None and part.element.name in SETTINGS)
-    return all(each.attributes == _OF_MUJOCO and not each.children for each in kept)
+    of_physics = [part.element for part in holder.opaque if part.element and part.element.name == "physics"]
+    wind = untyped(unsaid_world(holder), "wind")
+    return (
+        wind is None
+        and [each.attributes for each in of_physics] == [_OF_MUJOCO]
+        and not any(child.name != "max_step_size" for each in of_physics for child in each.children)
+    )
 
 
 def option_attributes(world: World, *, has_magnetometers: bool) -> Attributes:
