@@ -48,7 +48,6 @@ class Picture:
 _LONGER = ('<origin xyz="0 0 0.27"', '<origin xyz="0 0 0.34"')
 PICTURES = (
     Picture("view", ("examples/rover.urdf",), ("Show", "Joint axes", "Sensors")),
-    Picture("masses", ("examples/rover.urdf",), ("Show", "Visuals", "Skeleton", "Inertias", "Centers of mass")),
     Picture(
         "differences",
         ("examples/arm.urdf", "examples/arm.urdf"),
