@@ -15,6 +15,8 @@ from pathlib import Path
 
 from testbed.batches.sources import Sources
 
+_SETTLED_AFTER = 20
+"""So many events come before a whole run."""
 _PROGRAM = (sys.executable, "-P", "-c", "from twinform.cli import main; main()")
 _STATE = ".twinform-batch"
 _PATIENCE = 300.0
@@ -226,10 +228,10 @@ def _workers(parent: int) -> list[int]:
     return found
 
 
-def play(campaign: Campaign, events: Sequence[Callable[[], None]], rest: int = 20) -> None:
+def play(campaign: Campaign, events: Sequence[Callable[[], None]]) -> None:
     """Let one event come after the other, and a whole run after some of them and at the end."""
     for number, event in enumerate(events, start=1):
         event()
-        if number % rest == 0:
+        if number % _SETTLED_AFTER == 0:
             campaign.settle()
     campaign.settle()

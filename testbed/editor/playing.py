@@ -93,9 +93,9 @@ def notification(method: str, params: object) -> bytes:
     return json.dumps({"jsonrpc": "2.0", "method": method, "params": params}).encode()
 
 
-def opened(uri: str, text: str, version: int = 1) -> bytes:
+def opened(uri: str, text: str) -> bytes:
     """The notification that a document was opened."""
-    item = {"uri": uri, "languageId": "urdf", "version": version, "text": text}
+    item = {"uri": uri, "languageId": "urdf", "version": 1, "text": text}
     return notification("textDocument/didOpen", {"textDocument": item})
 
 

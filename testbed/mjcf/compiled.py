@@ -154,7 +154,7 @@ def pose_of(place: Array, rotation: Array) -> Array:
     return made
 
 
-def compile_urdf(text: bytes, folder: str | None = None, *, absent_is_nothing: bool) -> Compiled:
+def compile_urdf(text: bytes, *, absent_is_nothing: bool) -> Compiled:
     """Compile a URDF with all of its links and visuals.
 
     A link without inertial has no mass with `absent_is_nothing`, and else what MuJoCo makes of its collisions.
@@ -174,7 +174,7 @@ def compile_urdf(text: bytes, folder: str | None = None, *, absent_is_nothing: b
     for own in robot.findall("mujoco"):
         robot.remove(own)
     etree.SubElement(etree.SubElement(robot, "mujoco"), "compiler", settings)
-    return compile_mjcf(etree.tostring(robot, encoding="unicode"), folder)
+    return compile_mjcf(etree.tostring(robot, encoding="unicode"))
 
 
 def turn_rotors(urdf: bytes, robot: Compiled) -> None:

@@ -78,7 +78,7 @@ class Setup:
     folders: tuple[Path, ...]
 
 
-def prepared(sdf: str, file: Path, paths: Sequence[Path] = (), *, on_ground: bool, push: float = PUSH) -> Setup:
+def prepared(sdf: str, file: Path, paths: Sequence[Path] = (), *, on_ground: bool) -> Setup:
     """Write a robot into a file, convert it, and choose the forces on its joints.
 
     Raises:
@@ -91,7 +91,7 @@ def prepared(sdf: str, file: Path, paths: Sequence[Path] = (), *, on_ground: boo
     if not still.done:
         raise CannotBeDrivenError(f"DART: {still.outcome}")
     model, data = _compiled(bare, STEP)
-    forces = {name: force for name, force in _forces(model, data, push).items() if _may_push(still, name, force)}
+    forces = {name: force for name, force in _forces(model, data).items() if _may_push(still, name, force)}
     if not forces:
         raise CannotBeDrivenError("no joint that moves")
     ground = _lowest(model, data) - DROP if on_ground else None
@@ -205,14 +205,14 @@ def _compiled(setup: Setup, step: float, *, stiff: bool = False) -> tuple[Any, A
     return model, data
 
 
-def _forces(model: Any, data: Any, push: float) -> dict[str, float]:
+def _forces(model: Any, data: Any) -> dict[str, float]:
     """The greatest force on each joint of one freedom: by what it would have to move alone, to three digits."""
     mujoco: Any = importlib.import_module("mujoco")
     mass = np.zeros((model.nv, model.nv))
     mujoco.mj_fullM(model, data, mass)
     simple = [number for number in range(model.njnt) if model.jnt_type[number] in _HINGE_OR_SLIDE]
     dofs = {model.joint(number).name: int(model.jnt_dofadr[number]) for number in simple}
-    return {name: float(f"{push * mass[dof, dof]:.3g}") for name, dof in dofs.items()}
+    return {name: float(f"{PUSH * mass[dof, dof]:.3g}") for name, dof in dofs.items()}
 
 
 def _lowest(model: Any, data: Any) -> float:
