@@ -77,6 +77,11 @@ def report_stale(sink: DiagnosticSink, message: str, source: Source | None) -> N
     sink.report(STALE_CARRIER, message, where, found=message)
 
 
+def are_of_sdf(texts: Iterable[CarriedText]) -> bool:
+    """Whether carriers are those of a whole file of SDF or URDF, and not additions to one of MJCF."""
+    return any(each.kind == DOCUMENT or (each.kind == "model" and not each.name) for each in texts)
+
+
 def nodes_of(texts: Iterable[CarriedText], kind: str) -> list[Node]:
     """The partial nodes of a kind, by their scoped names."""
     return [each.node for each in texts if each.kind == kind]

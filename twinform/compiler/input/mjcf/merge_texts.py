@@ -6,7 +6,7 @@ What stands in the file always counts. A carrier fills what is open, and gives n
 from collections.abc import Iterable
 from typing import TypeVar
 
-from twinform.compiler.input.mjcf.carried_texts import CarriedText, nodes_of, report_stale
+from twinform.compiler.input.mjcf.carried_texts import CarriedText, are_of_sdf, nodes_of, report_stale
 from twinform.compiler.input.mjcf.joined_joints import join_joints
 from twinform.compiler.input.mjcf.merge_parts import merge_parts
 from twinform.compiler.input.mjcf.models_of_world import with_models
@@ -61,7 +61,7 @@ def merge_texts(document: Document, texts: tuple[CarriedText, ...], root: XmlEle
     if not texts:
         return document
     try:
-        if not any(each.kind == DOCUMENT for each in texts):
+        if not are_of_sdf(texts):
             return merge_parts(document, texts, root, sink)
         return _Merged(document, texts, root, sink).document()
     except FrameError as error:  # an edit has left frames without what they were in

@@ -7,7 +7,7 @@ which bodies at the top are in which model.
 from collections.abc import Collection, Mapping, Sequence
 from typing import NamedTuple, Self
 
-from twinform.compiler.input.mjcf.carried_texts import CarriedText
+from twinform.compiler.input.mjcf.carried_texts import CarriedText, are_of_sdf
 from twinform.compiler.input.mjcf.pieces import Piece
 from twinform.ir import Model
 from twinform.ir.transform import Transform
@@ -69,4 +69,5 @@ def _is_in_world(texts: Collection[CarriedText], *, is_one: bool, has_trees: boo
         return False
     if has_trees or "world" in kinds:
         return True
-    return False if DOCUMENT in kinds and find_annotation(kinds[DOCUMENT], SEVERAL) is None else None
+    is_of_several = DOCUMENT in kinds and find_annotation(kinds[DOCUMENT], SEVERAL) is not None
+    return False if are_of_sdf(texts) and not is_of_several else None
