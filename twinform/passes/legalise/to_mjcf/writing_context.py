@@ -213,7 +213,7 @@ class MjcfContext:
             each
             for link in self.tree.links.values()
             for shape in link.collisions
-            if any(visual.name == shape.name for visual in link.visuals)
+            if self.is_of_mjcf and any(visual.name == shape.name for visual in link.visuals)
             for each in kept_elements(shape)
         )
         return frozenset({*self.colors, *(each.get("material") or "" for each in (*geoms, *twins))})
