@@ -90,11 +90,12 @@ class Compiled:
 
     @cached_property
     def joints(self) -> dict[str, int]:
-        """The numbers of the joints by name; a free joint without one has that of its body."""
+        """The numbers of the joints by name; one without a name has that of its body, or none but its place."""
         found = dict[str, int]()
         for number in range(self.model.njnt):
             body = self.model.body(int(self.model.jnt_bodyid[number])).name
-            found[self.model.joint(number).name or body or "the only joint without a name"] = number
+            name = self.model.joint(number).name or body or "the first joint without a name"
+            found[name if name not in found else f"joint {number} without a name"] = number
         return found
 
     def facts(self, number: int) -> JointFacts:
