@@ -12,7 +12,7 @@ from twinform.ir.defaults import MASS, MOMENT
 from twinform.ir.document import Format
 from twinform.ir.solids import Symmetric, principal_axes, principal_moments, tensor, turned
 from twinform.ir.transform import Matrix3, Transform
-from twinform.passes.carriers.token_mass import MOMENTS, TOKEN_MASS, TOKEN_MOMENT, has_token_mass, is_chain_token
+from twinform.passes.carriers.token_mass import TOKEN_MASS, TOKEN_MOMENT, has_token_mass, is_chain_token
 from twinform.passes.legalise.to_mjcf.elements import Value, make_element, orientation, position
 from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements, with_kept
 from twinform.passes.legalise.to_mjcf.writing_context import Body, MjcfContext
@@ -70,10 +70,10 @@ def has_usual_weight(link: Link) -> bool:
 
 
 def _has_token_moments(inertial: Inertial) -> bool:
-    if inertial.inertia is None or inertial.inertia.ixx not in (None, 0.0, TOKEN_MOMENT):
+    if inertial.inertia is None:
         return False
-    written = [getattr(inertial.inertia, name) or 0.0 for name in MOMENTS]
-    return all(value in (0.0, TOKEN_MOMENT) for value in written)
+    usual = MOMENT[Format.SDF] or 0.0  # a moment that is not written has the default of SDF; a product is zero
+    return all(value in (0.0, TOKEN_MOMENT) for value in tensor(inertial.inertia, usual))
 
 
 def inertial_elements(context: MjcfContext, body: Body) -> list[Element]:
