@@ -40,9 +40,21 @@ NOT_COMPARED = (
     NotCompared(
         "//joint[@type='fixed' or @type='floating' or @type='spherical']"
         "/*[self::axis or self::limit or self::dynamics or self::mimic"
-        " or self::safety_controller or self::calibration] | //joint[@type='ball']/axis",
+        " or self::safety_controller or self::calibration]"
+        " | //joint[@type='ball']/axis//*[not(self::dynamics or self::damping)]"
+        " | //joint[@type='ball' and /mujoco]/@axis",
         "the axis of a joint that has none",
-        "A fixed, floating or ball joint has no axis, and no reader uses what is said of it.",
+        "A fixed, floating or ball joint has no axis, and no reader uses what is said of it but the damping of a ball.",
+    ),
+    NotCompared(
+        "/mujoco/compiler/@*",
+        "settings of MuJoCo's compiler",
+        "What they make of angles, masses and files is compared; one that nothing in the file needs means nothing.",
+    ),
+    NotCompared(
+        "/mujoco/contact/exclude",
+        "excluded contacts of MJCF",
+        "A conversion derives them from the tree and from what collides; pairs are compared.",
     ),
     NotCompared(
         "//joint[not(@type='universal' or @type='revolute2' or @type='gearbox')]/axis2",

@@ -22,9 +22,11 @@ from twinform.ir.defaults import UNLIMITED
 from twinform.passes.carriers.carriers import NAMESPACE, PREFIX
 from twinform.schemas import Fact, Version, XmlElement, rows_by_name, table
 
-_FORMATS = {"robot": "urdf", "sdf": "sdf"}
+_FORMATS = {"robot": "urdf", "sdf": "sdf", "mujoco": "mjcf"}
 _NOT_VALUES = frozenset({("sdf", "version"), ("robot", "version")})
 """Attributes that say how a file is written."""
+_CLASSES = "default"
+"""The element of MJCF whose values count where others have its class and no value of their own."""
 _ROUNDING = 1e-9
 """Less than this is no more than what rounding leaves."""
 _SHARES = frozenset({"color", "color4"})
@@ -53,6 +55,8 @@ class Spot:
     @property
     def is_direction(self) -> bool:
         """Whether it is a vector whose length means nothing."""
+        if self.path.startswith("mujoco/"):
+            return self.name in {"axis", "zaxis"}
         return self.path.endswith(("axis/xyz", "axis2/xyz", "axis/@xyz"))
 
     def write(self, value: str) -> None:
@@ -65,7 +69,9 @@ class Spot:
 
 def spots(root: XmlElement) -> list[Spot]:
     """Every value in the tree of a file that `check` has read."""
-    return [spot for each in described(root) for spot in _spots(each)]
+    return [
+        spot for each in described(root) for spot in _spots(each) if not spot.path.startswith(f"mujoco/{_CLASSES}/")
+    ]
 
 
 @dataclass(frozen=True, slots=True)

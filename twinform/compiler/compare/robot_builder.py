@@ -212,6 +212,7 @@ _OF_TYPES: Mapping[str, frozenset[str]] = {
     "thread_pitch": frozenset({"screw"}),
 }
 """The types of joints for which a value means something; others are for all types."""
+_OF_BALLS = ("ball", "axis/dynamics/damping")
 _SLIDES = frozenset({"prismatic"})
 _UNITS: Mapping[str, tuple[str, str]] = {
     "limit/lower": ("rad", "m"),
@@ -250,7 +251,8 @@ def _is_used(path: str, type: str) -> bool:
         return type in _OF_TYPES[path]
     if path.startswith("axis2"):
         return type in WITH_TWO_AXES
-    return type not in WITHOUT_AXIS or not path.startswith("axis")
+    # Drake and MuJoCo damp a ball, whose axis says nothing else
+    return type not in WITHOUT_AXIS or not path.startswith("axis") or (type, path) == _OF_BALLS
 
 
 def _with_unit(path: str, leaf: Leaf, type: str) -> Leaf:
