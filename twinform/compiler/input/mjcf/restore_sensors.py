@@ -48,7 +48,7 @@ def sensors_back(
         names = [_part_name(line) for line in (note.text or "").splitlines()]
         found = [elements[name] for name in names if name in elements]
         digest = digest_of((str(each.tag), {str(k): str(v) for k, v in each.items()}) for each in found)
-        is_moved = any(_body_around(each) not in of_holder for each in found if each.tag in _IN_BODIES)
+        is_moved = any(_body_around(each) not in {"", *of_holder} for each in found if each.tag in _IN_BODIES)
         if not found or digest != note.get("digest") or is_moved:
             state = "was edited" if found else "is gone"
             report_stale(
@@ -86,7 +86,7 @@ _IN_BODIES = frozenset({"site", "camera", "light"})
 
 
 def _body_around(element: XmlElement) -> str | None:
-    """The name of the body that an element is in; None in the world."""
+    """The name of the body that an element is in; None in the world, and empty where the body has none."""
     body = next(element.iterancestors("body"), None)
     return None if body is None else body.get("name") or ""
 
