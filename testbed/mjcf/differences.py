@@ -17,12 +17,16 @@ _PLANAR = {"TX": "_x", "TY": "_y", "RZ": ""}
 """What our joints of a planar one are called where MuJoCo calls them NAME_TX, NAME_TY and NAME_RZ."""
 
 
+_LIMITS = frozenset({"range", "force"})
+
+
 class Pair(NamedTuple):
-    """A joint of both models."""
+    """A joint of both models; of a planar one URDF has no limits, which MuJoCo takes for those of one direction."""
 
     name: str
     source: int
     made: int
+    is_planar: bool = False
 
 
 def differences(source: Compiled, made: Compiled, seed: int = 1) -> list[str]:
@@ -39,21 +43,24 @@ def _pair(source: Compiled, made: Compiled) -> tuple[list[Pair], list[str]]:
     missing: list[str] = []
     others = dict(made.joints)
     for name, number in source.joints.items():
-        other = others.pop(name, None)
+        other, is_planar = others.pop(name, None), False
         if other is None and not source.model.joint(number).name:  # and its body has none
             other = next((others.pop(each) for each in [*others] if not made.model.joint(others[each]).name), None)
         if other is None:
             stem, _, end = name.rpartition("_")
             other = others.pop(stem + _PLANAR.get(end, " "), None)
+            is_planar = other is not None
         if other is None:
             missing.append(f"joint {name!r} is missing")
         else:
-            pairs.append(Pair(name, number, other))
+            pairs.append(Pair(name, number, other, is_planar))
     return pairs, [*missing, *(f"joint {name!r} is new" for name in others)]
 
 
 def _facts(pair: Pair, one: JointFacts, other: JointFacts) -> Iterator[str]:
     for name, first, second in zip(one._fields, one, other, strict=True):
+        if pair.is_planar and name in _LIMITS:
+            continue
         a, b = (np.atleast_1d(np.asarray(each, dtype=float)) for each in (first, second))
         if a.shape != b.shape or not np.allclose(a, b, rtol=TOLERANCE, atol=TOLERANCE):
             yield f"{name} of joint {pair.name!r}: {first} is {second}"

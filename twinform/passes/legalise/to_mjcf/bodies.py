@@ -106,7 +106,9 @@ class _BodyTree:
             return False
         if not weight_of(link).is_nothing:
             return False
-        return len(self.tree.joints_below(name)) == 1 and self.tree.joint_above(name) is not None
+        below, above = self.tree.joints_below(name), self.tree.joint_above(name)
+        # A fixed one was edited so, and holds a body of its own.
+        return above is not None and len(below) == 1 and "fixed" not in {above.type, below[0].type}
 
     def _hold(self, name: str) -> Hold:
         found: list[JointBetween] = []
