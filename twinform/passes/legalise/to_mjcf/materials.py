@@ -33,7 +33,7 @@ def look_of(context: MjcfContext, body: Body, visual: Visual, twin: Collision | 
     """
     found = look(visual)
     kept = next((each for each in kept_elements(twin or visual) if each.name == "geom" and each.get("material")), None)
-    if kept is not None and not has_look(visual):
+    if kept is not None and context.is_of_mjcf and not has_look(visual):
         return []
     name = (kept.get("material") if kept is not None else None) or ""
     if kept is not None and _has_image(context, name, found):
