@@ -9,7 +9,7 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import field
 from functools import cache
-from operator import attrgetter, is_
+from operator import is_
 from typing import NamedTuple, Protocol, TypeVar, cast
 
 from twinform.dataclass import dataclass
@@ -64,33 +64,31 @@ def remainder(node: AnyNode, said: Said, notes: Notes = _no_notes) -> AnyNode | 
     base = node
     if isinstance(fields, Left):
         base, fields = cast("AnyNode", fields.node), fields.fields
-    more, parts = notes(node), _parts_of(base.__class__, fields)
-    values = parts.values(base)
-    if not more and values == parts.blank:  # as of most nodes, and comparing takes less than looking at each field
+    more = notes(node)
+    update: dict[str, object] = {}
+    is_said, has_content = base is not node or EXISTENCE in fields, bool(more or base.opaque)
+    unsaid, known = _parts_of(base.__class__, fields)
+    for name, usual in unsaid:
+        value = getattr(base, name)
+        if not value and (value is None or value == ()):  # as most are; to compare records takes longer
+            continue
+        left = _left_of(value, said, notes)
+        if left is value:
+            has_content = True
+            continue
+        is_said = True
+        update[name] = usual if left is None else left
+        has_content = has_content or left is not None
+    if not has_content:  # most nodes are said as a whole, and need no copy
         return None
-    update, has_content = _left_in(zip(parts.unsaid, values, strict=False), said, notes)
-    if not (has_content or more or base.opaque):
-        return None
-    update |= {name: usual for name, usual in parts.said if not _is_unwritten(getattr(base, name))}
-    is_said = update or base is not node or EXISTENCE in fields
+    for name, usual in known:
+        if not _is_unwritten(getattr(base, name)):
+            update[name] = usual
+            is_said = True
     rest = (_REST,) if is_said and not isinstance(node, _LOOSE) else ()
     if rest or more:
         update["opaque"] = (*rest, *more, *base.opaque)
     return base.copy(**update) if update else base
-
-
-def _left_in(unsaid: Iterable[tuple[_Usual, object]], said: Said, notes: Notes) -> tuple[dict[str, object], bool]:
-    """What is left of the values of fields of which something is said, and whether anything is left of any field."""
-    update: dict[str, object] = {}
-    has_content = False
-    for (name, usual), value in unsaid:
-        if _is_unwritten(value):
-            continue
-        left = _left_of(value, said, notes)
-        has_content = has_content or left is not None
-        if left is not value:
-            update[name] = usual if left is None else left
-    return update, has_content
 
 
 def _with_notes(node: AnyNode, notes: Notes) -> AnyNode:
@@ -245,26 +243,8 @@ def _is_unwritten(value: object) -> bool:
     return not value and (value is None or value == ())  # to compare records takes longer
 
 
-class _Parts(NamedTuple):
-    """The fields of a class that are left unsaid, and those that are said, with their defaults.
-
-    `values` returns those of the unsaid ones and the untyped parts, and they are `blank` if nothing is left unsaid.
-    """
-
-    unsaid: tuple[_Usual, ...]
-    said: tuple[_Usual, ...]
-    values: Callable[[Node], tuple[object, ...]]
-    blank: tuple[object, ...]
-
-
 @cache
-def _parts_of(kind: type[Node], said: frozenset[str]) -> _Parts:
+def _parts_of(kind: type[Node], said: frozenset[str]) -> tuple[tuple[_Usual, ...], tuple[_Usual, ...]]:
+    """The fields of a class that are left unsaid, and those that are said, with their defaults."""
     parts = [(name, each.default) for name, each in fields_of(kind).items() if name not in _APART]
-    unsaid = tuple(each for each in parts if each[0] not in said)
-    values = attrgetter(*(name for name, _ in unsaid), "opaque", "__class__")  # of one name it would return no tuple
-    blank = (*(usual if _is_unwritten(usual) else _NOTHING for _, usual in unsaid), (), kind)
-    return _Parts(unsaid, tuple(each for each in parts if each[0] in said), values, blank)
-
-
-_NOTHING = object()
-"""Is equal to no value: what is not the absence of a field has to be looked at."""
+    return tuple(each for each in parts if each[0] not in said), tuple(each for each in parts if each[0] in said)
