@@ -91,7 +91,8 @@ def geom_elements(context: MjcfContext, body: Body) -> list[Element]:
                 looks = [("material", material), *looks]
             more = [*_UNTOUCHED, *group, *weightless, *looks]
             found.append(_geom(context, body, visual, shape, more, seen=visual))
-    _name_what_is_read_otherwise(context, body, [each.get("name") or "" for each in found])
+    if context.unnamed:
+        _name_what_is_read_otherwise(context, body, [each.get("name") or "" for each in found])
     return found
 
 
@@ -167,11 +168,13 @@ def _geom(
     name = context.name_in(body, "geom", source_name(part), part)
     if name is not None:
         context.written_geoms[id(part)] = name
-        context.note_made_name("geom", part, name, _wish(body, part))
+        if context.is_of_mjcf:
+            context.note_made_name("geom", part, name, _wish(body, part))
     at = context.resolve(part.pose, body).compose(shape.at)
     attributes = [("name", name), *shape.attributes, *placement(at), *more]
-    element = with_kept(make_element("geom", attributes, (), part.source), part)
-    if any(key == "size" for key, _ in shape.attributes):
+    bare = make_element("geom", attributes, (), part.source)
+    element = with_kept(bare, part)
+    if element is not bare and any(key == "size" for key, _ in shape.attributes):
         element = without_mesh(element)
     if context.is_of_mjcf and seen is not None and not has_look(seen):
         # It was deleted: what is read of MJCF has the colors of its geom.
