@@ -98,6 +98,8 @@ def metal(material: Material, name: str) -> Element | None:
 
 def _images(material: Material) -> Iterator[tuple[str, str]]:
     """Yield the roles and URIs of the images of a material."""
+    if not material.opaque and material.albedo_map is None:  # as most, and there are six to look for
+        return
     for name, role in MAPS.items():
         element = metal(material, name)
         uri = material.albedo_map if name == "albedo_map" else element.text if element is not None else None
