@@ -7,7 +7,6 @@ from collections.abc import Iterable
 
 from twinform.diagnostics import Source
 from twinform.ir import Element
-from twinform.ir.record import filler
 from twinform.ir.transform import Transform, rounded
 from twinform.schemas import format_value
 from twinform.schemas.value_types import format_numbers
@@ -19,7 +18,6 @@ ENDLESS = 200.0
 """The size in m that a plane without an end has in SDF, where it only matters for what is seen."""
 GRID = 1.0
 """The distance in m of the lines that are drawn on a plane."""
-_fill_element = filler(Element)
 _UNTURNED = (1.0, 0.0, 0.0, 0.0)
 """The quaternion of no rotation."""
 
@@ -28,12 +26,8 @@ def make_element(
     name: str, attributes: Attributes = (), children: Iterable[Element] = (), source: Source | None = None
 ) -> Element:
     """Return an element; `source` is where the part was read that it is written for."""
-    written = [
-        (key, value if value.__class__ is str else attribute_text(value))
-        for key, value in attributes
-        if value is not None
-    ]
-    return _fill_element((source, name, tuple(written), None, tuple(children), None))
+    written = tuple([(key, attribute_text(value)) for key, value in attributes if value is not None])
+    return Element.unchecked(name=name, attributes=written, children=tuple(children), source=source)
 
 
 def attribute_text(value: str | float | bool | tuple[float, ...]) -> str:
