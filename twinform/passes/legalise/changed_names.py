@@ -241,7 +241,7 @@ def old_name(old: str, name: str) -> Opaque:
 def _model_by_its_name(model: Model) -> Model:
     """The model with its annotated name restored, unless it was renamed since."""
     found = find_annotation(model, NAME)
-    if found is None or not _old_name(found):  # MJCF alone may call a model nothing
+    if found is None or not (_old_name(found) or came_from(model, Format.URDF)):  # MJCF may call a model nothing
         return model
     model = without_annotation(model, NAME)
     return model.copy(name=_old_name(found)) if found.get("instead_of") == model.name else model
