@@ -4,11 +4,10 @@ A file says of each geom what it touches, by bits that the writer has computed o
 again say that nobody has edited them. What was edited stays with the geom as it is.
 """
 
-from collections import Counter
 from collections.abc import Collection
-from itertools import chain
 from typing import NamedTuple, cast
 
+from twinform.compiler.input.mjcf.links_that_touch import links_that_touch
 from twinform.compiler.input.mjcf.renamed_parts import name_in_file
 from twinform.ir import Collision, Element, Link, Model, Node, Opaque, Surface, World, replace_fields, rewrite
 from twinform.ir.kinematic_tree import KinematicTree
@@ -103,18 +102,7 @@ class _HolderContacts:
         if excluded.issuperset(map(frozenset, self.plan.excluded)) and not any(map(self._is_edited, self.tree.links)):
             return set()
         bits = {name: frozenset(map(_written_bits, link.collisions)) for name, link in self.tree.links.items()}
-        pairs: list[tuple[str, str]] = [
-            (one, other)
-            for one, other in self.plan.apart
-            if frozenset((one, other)) not in excluded
-            and any(a.meets(b) for a in bits[one] if a for b in bits[other] if b)
-        ]
-        found: set[str] = set()
-        while pairs:
-            [(most, _)] = Counter(chain.from_iterable(pairs)).most_common(1)
-            found.add(most)
-            pairs = [pair for pair in pairs if most not in pair]
-        return found
+        return set(links_that_touch(self.plan, bits, excluded))
 
     def _is_edited(self, name: str) -> bool:
         """Whether the geoms of a link have other bits than it gives them."""

@@ -10,7 +10,7 @@ of everything but them. So a robot alone has 1 and 0, and still touches what has
 """
 
 from collections import Counter, defaultdict
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from functools import cached_property
 from itertools import combinations
 from typing import NamedTuple
@@ -109,15 +109,13 @@ class ContactPlan:
         pairs = [*combinations(counts, 2), *((bits, bits) for bits, count in counts.items() if count > 1)]
         return any(one.meets(other) for one, other in pairs)
 
-    @property
-    def apart(self) -> Iterator[Pair]:
-        """The pairs of links that touch nowhere in SDF, and in MuJoCo only what is written keeps apart.
+    def loose_links(self) -> Iterator[list[str]]:
+        """The links of each model that touch no others of it in SDF, where MuJoCo would let any of them touch."""
+        return (loose for links in self._groups.values() if (loose := self._loose(links)))
 
-        Those that a joint connects are not among them: no link of SDF can be told to touch the one that it hangs from.
-        """
-        joined = frozenset(map(frozenset, self._joints()))
-        for links in self._groups.values():
-            yield from (pair for pair in self._needless_contacts(links) if frozenset(pair) not in joined)
+    def has_all(self, names: Iterable[str]) -> bool:
+        """Whether all of these names are those of links."""
+        return all(each in self._tree.links for each in names)
 
     def _told_to_touch(self, links: Collection[str]) -> Collection[str]:
         """The links of a model that touches itself, if their bits do not."""
@@ -130,7 +128,7 @@ class ContactPlan:
         What is fixed to the world does not touch itself, whatever its bits are. A model in no world goes by no name.
         """
         links = self._groups.get(model, ())
-        if any(self._flagged[link] for link in links) or all(self._weld(link) == WORLD for link in links):
+        if any(self._flagged[link] for link in links) or all(self.weld(link) == WORLD for link in links):
             return False
         return self.touch_by_bits(links)
 
@@ -165,21 +163,23 @@ class ContactPlan:
 
     def _needless_contacts(self, links: list[str]) -> Iterator[Pair]:
         """Yield the pairs of links of one model that do not touch in SDF, and would in MuJoCo."""
+        return (pair for pair in combinations(self._loose(links), 2) if not self.is_filtered(*pair))
+
+    def _loose(self, links: list[str]) -> list[str]:
+        """The links of a model that touch no others of it; none where all are fixed to one, as in a static model."""
         loose = [link for link in links if not self._flagged[link]]
-        if len({self._weld(link) for link in loose}) == 1:  # as in a static model, however many links it has
-            return iter(())
-        return (pair for pair in combinations(loose, 2) if not self._is_filtered(*pair))
+        return loose if len({self.weld(link) for link in loose}) > 1 else []
 
     def _joined(self) -> Iterator[Pair]:
         """Yield the pairs of links that a joint connects, and that would touch by their bits."""
-        return (pair for pair in self._joints() if not self._is_filtered(*pair) and self._touch(*pair))
+        return (pair for pair in self.joints() if not self.is_filtered(*pair) and self._touch(*pair))
 
-    def _joints(self) -> Iterator[Pair]:
+    def joints(self) -> Iterator[Pair]:
         """Yield the pairs of links that a joint connects."""
         links = self._tree.links
         between = [above for name in links if (above := self._tree.joint_above(name))]
         pairs = ((each.parent, each.child) for each in (*between, *self._tree.closing))
-        return (pair for pair in pairs if all(name in links for name in pair))
+        return (pair for pair in pairs if self.has_all(pair))
 
     def _touch(self, one: str, other: str) -> bool:
         """Whether any geoms of two links touch by their bits."""
@@ -189,20 +189,21 @@ class ContactPlan:
     def _bits_of(self, link: str) -> frozenset[Bits]:
         return frozenset(self.bits(link, each) for each in self._tree.links[link].collisions if _has_shape(each))
 
-    def _is_filtered(self, one: str, other: str) -> bool:
+    def is_filtered(self, one: str, other: str) -> bool:
         """Whether MuJoCo leaves out the contacts of two links by itself."""
-        first, second = self._weld(one), self._weld(other)
+        first, second = self.weld(one), self.weld(other)
         if first == second:
             return True
         if WORLD in (first, second):
             return False
-        return self._weld_above(first) == second or self._weld_above(second) == first
+        return self.weld_above(first) == second or self.weld_above(second) == first
 
-    def _weld_above(self, weld: str) -> str:
+    def weld_above(self, weld: str) -> str:
+        """The topmost link of what another one of these hangs from by a joint, or `world`."""
         above = self._tree.joint_above(weld)
-        return self._weld(above.parent) if above is not None else WORLD
+        return self.weld(above.parent) if above is not None else WORLD
 
-    def _weld(self, link: str) -> str:
+    def weld(self, link: str) -> str:
         """The topmost link that a link is fixed to, or `world`."""
         way = [link]
         while True:
