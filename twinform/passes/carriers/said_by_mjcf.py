@@ -69,6 +69,10 @@ def _is_reversed(limit: Limit) -> bool:
     return limit.lower is not None and limit.upper is not None and limit.lower > limit.upper
 
 
+def _of_link(node: Node) -> frozenset[str]:
+    return _WEIGHTLESS if isinstance(node, Link) and node.gravity is False else _PLACED
+
+
 def _of_shape(node: Node) -> frozenset[str] | None:
     return _PLACED if isinstance(node, Visual | Collision) and node.geometry else None
 
@@ -127,6 +131,7 @@ _MASS = _fields("pose mass")
 _PLACED = _fields("name pose")
 _POLYNOMIAL = _fields("joint axis multiplier offset")
 _SHAPE = _fields("shape")
+_WEIGHTLESS = _PLACED | {"gravity"}
 _SPRING = _DAMPING | {"spring_reference"}
 _SHAPES: Mapping[type[Node], frozenset[str]] = {
     Box: _fields("size"),
@@ -143,7 +148,7 @@ _SAID: Mapping[type[Node], frozenset[str] | Callable[[Node], frozenset[str] | No
     Model: _fields("name pose links joints frames models"),
     World: _fields("name gravity models joints frames"),
     Document: _fields("name format version namespaces"),
-    Link: _fields("name pose"),
+    Link: _of_link,
     Inertial: _of_inertial,
     Inertia: _fields("ixx ixy ixz iyy iyz izz"),
     Visual: _of_shape,

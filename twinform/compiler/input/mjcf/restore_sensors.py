@@ -6,7 +6,7 @@ from typing import NamedTuple, TypeVar
 from twinform.compiler.input.mjcf.carried_texts import report_stale
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Element, Frame, Joint, Light, Link, Model, Node, Opaque, Sensor, World, replace_fields, rewrite
-from twinform.passes.carriers.annotations import find_annotation, without_annotation
+from twinform.passes.carriers.annotations import WORLDBODY, find_annotation, without_annotation
 from twinform.passes.carriers.mjcf_texts import PARTS, digest_of
 from twinform.passes.carriers.partial_nodes import REST, written_name, written_names
 from twinform.passes.legalise.changed_names import NAME
@@ -66,16 +66,15 @@ def sensors_back(
         found = next((_body_around(each) for each in written if each is not None), None)
         return found or bodies.get(joint.child or "", joint.child)
 
+    def of_link(link: Link) -> Link:
+        body = bodies[link.name]
+        if body != WORLDBODY and ("body", body) not in elements:  # it is stale, and what it held is read as it stands
+            return replace_fields(link, sensors=(), lights=())
+        return replace_fields(link, sensors=kept(link.sensors, body), lights=kept(link.lights, body))
+
     world = replace_fields(world, lights=kept(world.lights, None)) if world else None
     return SensorsBack(
-        [
-            replace_fields(
-                each,
-                sensors=kept(each.sensors, bodies[each.name]),
-                lights=kept(each.lights, bodies[each.name]),
-            )
-            for each in links
-        ],
+        list(map(of_link, links)),
         [replace_fields(each, sensors=kept(each.sensors, moved_by(each))) for each in joints],
         world,
         frozenset(used),
