@@ -34,7 +34,8 @@ def sensors_back(
 ) -> SensorsBack:
     """Find the sensors whose elements are in a canonical tree as they were written; the others are as they stand.
 
-    Those in bodies are still in the body of their link, or in the one that their joint moves.
+    Those in bodies, and geoms whose contacts they tell, are still in the body of their link, or in the one that its
+    joint moves.
     """
     links, joints = list(links), list(joints)
     bodies = {each.name: written_name(each) for each in links}
@@ -48,7 +49,9 @@ def sensors_back(
         names = [_part_name(line) for line in (note.text or "").splitlines()]
         found = [elements[name] for name in names if name in elements]
         digest = digest_of((str(each.tag), {str(k): str(v) for k, v in each.items()}) for each in found)
-        is_moved = any(_body_around(each) not in {"", *of_holder} for each in found if each.tag in _IN_BODIES)
+        geoms = (elements.get(("geom", each.get("geom1") or "")) for each in found)
+        placed = [*(each for each in found if each.tag in _IN_BODIES), *(each for each in geoms if each is not None)]
+        is_moved = any(_body_around(each) not in {"", *of_holder} for each in placed)
         if not found or digest != note.get("digest") or is_moved:
             state = "was edited" if found else "is gone"
             report_stale(
