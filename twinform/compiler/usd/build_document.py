@@ -25,7 +25,7 @@ def build_document(stage: Stage, known: frozenset[str] | None = None, *, apart: 
     Transforms are frames where their names are `known`, or where nothing is. Articulations with known names are one
     model, such as a robot of two arms, unless they are wanted `apart`.
     """
-    joints = [*joints_of(stage)]
+    joints = sorted(joints_of(stage), key=lambda each: each.is_loop)  # of several joints of a link, the first holds it
     shapes = defaultdict[str, list[Collision]](list)
     for body, collision in collisions_of(stage):
         shapes[body].append(collision)
@@ -117,7 +117,7 @@ def _unfolded(joints: Iterable[Joint], taken: set[str]) -> tuple[list[Link], lis
 def _places(stage: Stage, bodies: Iterable[str], joints: Iterable[StageJoint]) -> dict[str, Transform]:
     """Return where the bodies are in the world when all joints are at zero."""
     below = defaultdict[str | None, list[StageJoint]](list)
-    for joint in sorted(joints, key=lambda each: each.is_loop):
+    for joint in joints:
         below[joint.parent.body].append(joint)
     moved = {joint.child.body for joint in joints}
     places: dict[str, Transform] = {}
