@@ -23,6 +23,7 @@ from twinform.compiler.input.mjcf.written_models import with_written_models, wit
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document, Frame, Joint, Link, Model, Node, World, replace_fields, rewrite
 from twinform.ir.frames import WORLD
+from twinform.ir.scopes import nested_models
 from twinform.passes.carriers.annotations import (
     MADE_NAME,
     annotation,
@@ -42,23 +43,35 @@ def merge_parts(document: Document, texts: tuple[CarriedText, ...], root: XmlEle
     """A document of MJCF with what carriers hold of its links and joints."""
     models = [each for each in nodes_of(texts, "model") if isinstance(each, Model)]
     document, models = with_written_models(document, models, sink)
-    merging = _PartMerging(texts, models, root, sink)
+    merging = _PartMerging(texts, models, root, _names_of_links(document), sink)
     document = merging.in_document(rewrite(document, Model, merging.in_model))
     merging.report_stale()
     return document
+
+
+def _names_of_links(document: Document) -> frozenset[str]:
+    """The names that the links of a document have in the file."""
+    tops = (*document.models, *(each for world in document.worlds for each in world.models))
+    inner = (model for top in tops for model in nested_models(top))
+    return frozenset(name_in_file(link) for model in inner for link in model.links)
 
 
 class _PartMerging:
     """Merges the carriers of one file."""
 
     def __init__(
-        self, texts: tuple[CarriedText, ...], models: Iterable[Model], root: XmlElement, sink: DiagnosticSink
+        self,
+        texts: tuple[CarriedText, ...],
+        models: Iterable[Model],
+        root: XmlElement,
+        there: frozenset[str],
+        sink: DiagnosticSink,
     ) -> None:
         self.root, self.sink = root, sink
         links = [each for each in nodes_of(texts, "link") if isinstance(each, Link)]
         joints = [each for each in nodes_of(texts, "joint") if isinstance(each, Joint)]
         world = next((each for each in nodes_of(texts, "world") if isinstance(each, World)), None)
-        back = sensors_back(links, joints, world, root, sink)
+        back = sensors_back(links, joints, world, root, there, sink)
         self._world = back.world
         frames = (each for each in nodes_of(texts, "frame") if isinstance(each, Frame))
         self._nested = [each for each in frames if find_annotation(each, PART) is not None]

@@ -12,7 +12,7 @@ from twinform.compiler.input.mjcf.merge_parts import merge_parts
 from twinform.compiler.input.mjcf.models_of_world import with_models
 from twinform.compiler.input.mjcf.names import safe_name
 from twinform.compiler.input.mjcf.one_model import one_model
-from twinform.compiler.input.mjcf.renamed_parts import renamed_parts
+from twinform.compiler.input.mjcf.renamed_parts import name_in_file, renamed_parts
 from twinform.compiler.input.mjcf.restore_contacts import settle_contacts
 from twinform.compiler.input.mjcf.restore_loops import is_loop, loops_back
 from twinform.compiler.input.mjcf.restore_sensors import (
@@ -92,7 +92,8 @@ class _Merged:
     def document(self) -> Document:
         """The document as it was before it was written, with all edits since."""
         model = self._named(one_model(self.lowered, safe_name(self.root.get("model") or "model")))
-        back = sensors_back(self.links, self.joints, self.world, self.root, self.sink)
+        there = {name_in_file(each) for each in model.links}
+        back = sensors_back(self.links, self.joints, self.world, self.root, there, self.sink)
         self.links, self.joints, self.world, self.parts = back
         model = without_parts_of_sensors(model, self.parts)
         model, left = join_joints(model, self.joints)

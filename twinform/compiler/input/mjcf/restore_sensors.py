@@ -30,9 +30,16 @@ class SensorsBack(NamedTuple):
 
 
 def sensors_back(
-    links: Iterable[Link], joints: Iterable[Joint], world: World | None, root: XmlElement, sink: DiagnosticSink
+    links: Iterable[Link],
+    joints: Iterable[Joint],
+    world: World | None,
+    root: XmlElement,
+    there: Collection[str],
+    sink: DiagnosticSink,
 ) -> SensorsBack:
     """Find the sensors whose elements are in a canonical tree as they were written; the others are as they stand.
+
+    `there` are the names of the links of the file: what is kept of others is stale.
 
     Those in bodies, and geoms whose contacts they tell, are still in the body of their link, or in the one that its
     joint moves.
@@ -49,7 +56,7 @@ def sensors_back(
         names = [_part_name(line) for line in (note.text or "").splitlines()]
         found = [elements[name] for name in names if name in elements]
         digest = digest_of((str(each.tag), {str(k): str(v) for k, v in each.items()}) for each in found)
-        geoms = (elements.get(("geom", each.get("geom1") or "")) for each in found)
+        geoms = (elements.get(("geom", name)) for each in found if (name := each.get("geom1")))
         placed = [*(each for each in found if each.tag in _IN_BODIES), *(each for each in geoms if each is not None)]
         is_moved = any(_body_around(each) not in {"", *of_holder} for each in placed)
         if not found or digest != note.get("digest") or is_moved:
@@ -71,7 +78,7 @@ def sensors_back(
 
     def of_link(link: Link) -> Link:
         body = bodies[link.name]
-        if body != WORLDBODY and ("body", body) not in elements:  # it is stale, and what it held is read as it stands
+        if body != WORLDBODY and body not in there:
             return replace_fields(link, sensors=(), lights=())
         return replace_fields(link, sensors=kept(link.sensors, body), lights=kept(link.lights, body))
 
