@@ -9,6 +9,7 @@ from collections.abc import Iterable, Iterator
 from twinform.diagnostics import Fate, rules
 from twinform.ir import Element
 from twinform.ir.frames import WORLD
+from twinform.passes.legalise.to_mjcf.kept_mjcf import SINGLE
 from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext
 from twinform.schemas.mjcf_references import KINDS, kind_of_tag, naming_attributes
 
@@ -47,7 +48,7 @@ class _Left:
         """Leave out the elements of all sections that name nothing, and tell whether there were any."""
         has_gone = False
         for section, elements in self._context.sections.items():
-            if section in _SCENE:
+            if section in _SCENE or section in SINGLE:  # settings name no parts
                 continue
             kept = [each for each in elements if not self._is_stale(each)]
             has_gone = has_gone or len(kept) < len(elements)
