@@ -16,6 +16,7 @@ from twinform.passes.carriers.mjcf_texts import SEVERAL, TREE
 from twinform.passes.carriers.partial_nodes import REST, WRITTEN, is_bare, remainder
 from twinform.passes.carriers.said_by_mjcf import said_by_mjcf
 from twinform.passes.legalise.to_mjcf.file_models import FileModels
+from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements
 from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext
 from twinform.passes.legalise.to_mjcf.written_file import WrittenFile
 
@@ -78,9 +79,16 @@ def _left_of(model: Model, scope: str, models: FileModels, context: MjcfContext)
 
 def _touches_beside(model: Model, name: str, context: MjcfContext, *, is_still: bool) -> bool | None:
     """Whether a model touches itself; None where that is what the bits in the file say."""
-    if model.self_collide and (is_still or not context.contacts.could_touch_itself(name)):
+    could_touch = context.contacts.could_touch_itself(name) or _keeps_what_touches(model)
+    if model.self_collide and (is_still or not could_touch):
         return True
     return False if context.contacts.is_told_apart(name) else None
+
+
+def _keeps_what_touches(model: Model) -> bool:
+    """Whether links keep geoms of MJCF that touch anything, of shapes that SDF does not have."""
+    geoms = (each for link in model.links for each in kept_elements(link) if each.name == "geom")
+    return any((each.get("contype"), each.get("conaffinity")) != ("0", "0") for each in geoms)
 
 
 def _frames_beside(scope: str, models: FileModels, context: MjcfContext) -> Iterator[Frame]:
