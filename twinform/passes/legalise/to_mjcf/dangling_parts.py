@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator
 from twinform.diagnostics import Fate, rules
 from twinform.ir import Element
 from twinform.ir.frames import WORLD
-from twinform.passes.legalise.to_mjcf.kept_mjcf import SINGLE
+from twinform.passes.legalise.to_mjcf.kept_mjcf import NO_SECTION, SINGLE
 from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext
 from twinform.schemas.mjcf_references import KINDS, kind_of_tag, naming_attributes
 
@@ -18,6 +18,8 @@ _MAKERS = frozenset({"composite", "flexcomp"})
 _MADE = frozenset(KINDS.values())
 _SCENE = frozenset({"worldbody", "asset"})
 """Sections whose elements are something without what they name."""
+_UNASKED = _SCENE | SINGLE | {NO_SECTION}
+"""Settings name no parts, and what stands beside the sections, as in a file to include, names parts of other files."""
 _TARGET = "target"
 """The attribute of a camera or light that follows a body, which SDF has no words for."""
 Name = tuple[str, str]
@@ -48,7 +50,7 @@ class _Left:
         """Leave out the elements of all sections that name nothing, and tell whether there were any."""
         has_gone = False
         for section, elements in self._context.sections.items():
-            if section in _SCENE or section in SINGLE:  # settings name no parts
+            if section in _UNASKED:
                 continue
             kept = [each for each in elements if not self._is_stale(each)]
             has_gone = has_gone or len(kept) < len(elements)
