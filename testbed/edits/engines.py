@@ -159,7 +159,7 @@ def _looks(compiled: Any) -> dict[str, Counter[object]]:
         "friction": Counter(round(float(model.geom_friction[each][0]), _DIGITS) for each in numbers if touched[each]),
         "actuators": Counter(
             (int(model.actuator_trntype[each]), *_rounded(model.actuator_gear[each], model.actuator_gainprm[each][:3]))
-            for each in range(model.nu)
+            for each in range(len(model.actuator_trntype))  # one may have several controls
         ),
         "sensors": Counter(int(each) for each in model.sensor_type),
         "equalities": Counter(
