@@ -85,3 +85,10 @@ def are_of_sdf(texts: Iterable[CarriedText]) -> bool:
 def nodes_of(texts: Iterable[CarriedText], kind: str) -> list[Node]:
     """The partial nodes of a kind, by their scoped names."""
     return [each.node for each in texts if each.kind == kind]
+
+
+def report_unmerged(sink: DiagnosticSink, partials: Iterable[Node]) -> None:
+    """Report parts of carriers that hold more of an element than the file has of it."""
+    for each in partials:
+        what = f"{type(each).__name__.lower()} {getattr(each, 'name', None) or ''}".strip()
+        report_stale(sink, f"what a carrier holds of the {what} belongs to nothing in the file", each.source)

@@ -6,7 +6,7 @@ Others are of what somebody has added to a file of SDF or URDF that was made of 
 from collections.abc import Collection, Iterable, Mapping
 from typing import TypeVar
 
-from twinform.compiler.input.mjcf.carried_texts import CarriedText, nodes_of, report_stale
+from twinform.compiler.input.mjcf.carried_texts import CarriedText, nodes_of, report_stale, report_unmerged
 from twinform.compiler.input.mjcf.joined_joints import join_joints
 from twinform.compiler.input.mjcf.nested_back import is_nested_in, nested_back
 from twinform.compiler.input.mjcf.renamed_parts import name_in_file, with_hidden_names
@@ -133,9 +133,7 @@ class _PartMerging:
 
     def report_stale(self) -> None:
         """Report what belongs to nothing in the file."""
-        for each in self._merging.stale:
-            message = f"a carrier holds a rest of {type(each).__name__.lower()} that belongs to nothing"
-            report_stale(self.sink, message, each.source)
+        report_unmerged(self.sink, self._merging.stale)
         for each in (*self._partials.values(), *self._loops, *self._of_bodies.values(), *self._nested):
             if isinstance(each, Link | Joint | Frame) and id(each) not in self._used:
                 message = (

@@ -6,7 +6,7 @@ What stands in the file always counts. A carrier fills what is open, and gives n
 from collections.abc import Iterable
 from typing import TypeVar
 
-from twinform.compiler.input.mjcf.carried_texts import CarriedText, are_of_sdf, nodes_of, report_stale
+from twinform.compiler.input.mjcf.carried_texts import CarriedText, are_of_sdf, nodes_of, report_stale, report_unmerged
 from twinform.compiler.input.mjcf.joined_joints import join_joints
 from twinform.compiler.input.mjcf.merge_parts import merge_parts
 from twinform.compiler.input.mjcf.models_of_world import with_models
@@ -103,9 +103,7 @@ class _Merged:
         self.joints = [each for each in self.joints if id(each) not in gone]
         model = with_rotors(self._attached(self._merged(self._with_loops(model))))
         model = without_assets(model, self.spellings.agreed)
-        for stale in self.merging.stale:
-            what = f"{type(stale).__name__.lower()} {getattr(stale, 'name', None) or ''}".strip()
-            report_stale(self.sink, f"what a carrier holds of the {what} belongs to nothing in the file", stale.source)
+        report_unmerged(self.sink, self.merging.stale)
         is_of_world = self.world is not None or self._are_several
         return self._in_version(self._as_document(self._restored(with_models(model) if is_of_world else model)))
 

@@ -9,6 +9,7 @@ from typing import NamedTuple
 
 from twinform.ir import Element
 from twinform.ir.defaults import UNLIMITED
+from twinform.passes.legalise.to_mjcf.elements import numbers_in
 from twinform.passes.legalise.to_mjcf.kept_mjcf import FORCE
 from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext
 from twinform.schemas import format_value
@@ -40,7 +41,7 @@ def efforts(actuators: Iterable[Actuator]) -> dict[str, float]:
 def counts(get: Callable[[str], str | None], limited: str, range_: str) -> bool:
     """Tell whether a range counts: where that is said, and otherwise where it is one."""
     said = get(limited) or "auto"
-    least, most = (*_numbers(get(range_)), 0.0, 0.0)[:2]
+    least, most = (*numbers_in(get(range_)), 0.0, 0.0)[:2]
     return said == "true" if said != "auto" else least < most
 
 
@@ -71,13 +72,9 @@ def _with_efforts(element: Element, found: dict[str, float]) -> Element:
 
 def _greatest_force(actuator: Actuator) -> float | None:
     """Return the greatest force of an actuator: of its own limit, or of a motor at the end of its control range."""
-    gear = abs(next(iter(_numbers(actuator.get("gear"))), 1.0))
+    gear = abs(next(iter(numbers_in(actuator.get("gear"))), 1.0))
     if counts(actuator.get, "forcelimited", "forcerange"):
-        return gear * max(map(abs, _numbers(actuator.get("forcerange"))))
+        return gear * max(map(abs, numbers_in(actuator.get("forcerange"))))
     if actuator.tag == "motor" and counts(actuator.get, "ctrllimited", "ctrlrange"):
-        return gear * max(map(abs, _numbers(actuator.get("ctrlrange"))))
+        return gear * max(map(abs, numbers_in(actuator.get("ctrlrange"))))
     return None
-
-
-def _numbers(text: str | None) -> tuple[float, ...]:
-    return tuple(map(float, (text or "").split()))

@@ -80,15 +80,18 @@ class AddedTexts(TextList):
         for kind, parts in (("link", links), ("joint", joints)):
             for each in filter(lambda part: models.has_part(part.name), parts):
                 self.file.part = each
-                left = remainder(_without_what_file_has(each), self._said_beside, self._notes_beside)
-                if left is not None and self._is_needless(left, each):
-                    left = None
-                if left is not None:
-                    left = map_references(left, self._name_in_file)
-                    names = [other for other in self.file.other_names(each) if other != WORLD]
-                    name = names[0] if len(names) == 1 else each.name
-                    own = name if self._is_named(each) and len(names) <= 1 else _own_name(each.name)
-                    self.add_text(kind, name, left.copy(name=own), each)
+                self._add_part(kind, each)
+
+    def _add_part(self, kind: str, part: Link | Joint) -> None:
+        """Add a text for what the file leaves unsaid of a link or joint, if that is anything."""
+        left = remainder(_without_what_file_has(part), self._said_beside, self._notes_beside)
+        if left is None or self._is_needless(left, part):
+            return
+        left = map_references(left, self._name_in_file)
+        names = [other for other in self.file.other_names(part) if other != WORLD]
+        name = names[0] if len(names) == 1 else part.name
+        own = name if self._is_named(part) and len(names) <= 1 else _own_name(part.name)
+        self.add_text(kind, name, left.copy(name=own), part)
 
     def _is_named(self, part: Link | Joint) -> bool:
         """Whether a body or joint of the file has the name of a part: none has that of the world's own shapes."""
@@ -174,7 +177,6 @@ class AddedTexts(TextList):
             lights=tuple(left for each in link.lights if (left := unread_light(each)) is not None),
             inertial=None if weight_of(link).is_nothing else link.inertial,
             kinematic=None if link.name in self.context.mocap else link.kinematic,
-            gravity=None if link.gravity is False else link.gravity,
         )
 
     def _without_seen(self, link: Link) -> Link:

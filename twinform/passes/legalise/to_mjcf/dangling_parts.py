@@ -6,7 +6,6 @@ So is a camera or light that follows a body.
 
 from collections.abc import Iterable, Iterator
 
-from twinform.diagnostics import Fate, rules
 from twinform.ir import Element
 from twinform.ir.frames import WORLD
 from twinform.passes.legalise.to_mjcf.kept_mjcf import NO_SECTION, SINGLE
@@ -89,8 +88,7 @@ class _Left:
         where = element.location if element.source else self._context.holder.location
         own = f" {found}" if (found := element.get("name")) else ""
         message = f"<{element.name}>{own} is kept for {kind} {called!r}, which is not there any more"
-        self._context.sink.account(Fate.DROPPED, rules.STALE_CARRIER, message, where, 1)
-        self._context.sink.report(rules.STALE_CARRIER, message, where, found=f"{kind} {called!r}")
+        self._context.drop_stale(message, where, f"{kind} {called!r}")
 
 
 def _named(context: MjcfContext) -> Iterator[Name]:

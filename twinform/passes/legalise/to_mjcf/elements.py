@@ -1,4 +1,4 @@
-"""Making elements of MJCF: attributes from numbers and vectors, positions and quaternions from transforms.
+"""Elements of MJCF: attributes from numbers and back, positions and quaternions from transforms.
 
 Numbers are written so that they read back as the same double. Orientations are always quaternions, w x y z.
 """
@@ -35,6 +35,11 @@ def attribute_text(value: str | float | bool | tuple[float, ...]) -> str:
     if isinstance(value, str):
         return value
     return format_numbers(value) if isinstance(value, tuple) else format_value(value)
+
+
+def numbers_in(text: str | None) -> tuple[float, ...]:
+    """The numbers of a text; none where there is no text."""
+    return tuple(map(float, (text or "").split()))
 
 
 def placement(transform: Transform) -> list[tuple[str, Value]]:

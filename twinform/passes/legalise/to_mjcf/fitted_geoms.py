@@ -14,7 +14,7 @@ from twinform.ir.geometry import Box, Capsule, Cylinder, Shape
 from twinform.ir.pose import Pose
 from twinform.ir.transform import Transform
 from twinform.passes.carriers.annotations import FITTED, annotation, find_annotation
-from twinform.passes.legalise.to_mjcf.elements import attribute_text, placement
+from twinform.passes.legalise.to_mjcf.elements import attribute_text, numbers_in, placement
 
 _TOLERANCE = 1e-9
 _OF_MESHES = frozenset({"mesh", "fitscale"})
@@ -48,13 +48,13 @@ def fitted_mesh(part: Node, shape: Shape, asset: Element | None) -> Transform | 
     mark = find_annotation(part, FITTED)
     if mark is None or mark.get("type") != shape.kind:
         return None
-    fitted, size = _numbers(mark, "size"), geom_size(shape)
+    fitted, size = numbers_in(mark.get("size")), geom_size(shape)
     if len(fitted) != len(size) or not all(
         math.isclose(one, other, rel_tol=_TOLERANCE) for one, other in zip(fitted, size, strict=True)
     ):
         return None
-    x, y, z = _numbers(mark, "pos") or (0.0, 0.0, 0.0)
-    w, i, j, k = _numbers(mark, "quat") or (1.0, 0.0, 0.0, 0.0)
+    x, y, z = numbers_in(mark.get("pos")) or (0.0, 0.0, 0.0)
+    w, i, j, k = numbers_in(mark.get("quat")) or (1.0, 0.0, 0.0, 0.0)
     file = Transform.from_pose(Pose.unchecked(xyz=(x, y, z), quat_xyzw=(i, j, k, w)))
     return file if asset is None else file.compose(_reference(asset))
 
@@ -63,16 +63,12 @@ def _reference(asset: Element) -> Transform:
     """Where the frame of a mesh is in that of its file: at its reference pose, unless others say that already."""
     if asset.get("file") is None:
         return Transform()
-    x, y, z = _numbers(asset, "refpos") or (0.0, 0.0, 0.0)
-    w, i, j, k = _numbers(asset, "refquat") or (1.0, 0.0, 0.0, 0.0)
-    a, b, c = _numbers(asset, "scale") or (1.0, 1.0, 1.0)
+    x, y, z = numbers_in(asset.get("refpos")) or (0.0, 0.0, 0.0)
+    w, i, j, k = numbers_in(asset.get("refquat")) or (1.0, 0.0, 0.0, 0.0)
+    a, b, c = numbers_in(asset.get("scale")) or (1.0, 1.0, 1.0)
     return Transform.from_pose(Pose.unchecked(xyz=(a * x, b * y, c * z), quat_xyzw=(i, j, k, w)))
 
 
 def without_mesh(geom: Element) -> Element:
     """A geom of a size of its own without what it was fitted to, since MuJoCo would fit it again."""
     return geom.copy(attributes=tuple(pair for pair in geom.attributes if pair[0] not in _OF_MESHES))
-
-
-def _numbers(mark: Element, name: str) -> tuple[float, ...]:
-    return tuple(map(float, (mark.get(name) or "").split()))

@@ -16,6 +16,7 @@ from typing import NamedTuple
 
 from twinform.ir import Collision, Element, Opaque, Surface
 from twinform.ir.transform import rounded
+from twinform.passes.legalise.to_mjcf.elements import numbers_in
 from twinform.passes.legalise.to_mjcf.said_parts import child_number, child_text, untyped, without_elements
 from twinform.schemas import format_value
 
@@ -94,7 +95,7 @@ def torsional_part(length: float, rest: Element | None = None) -> Opaque:
 
 def rolling_of(geom: Mapping[str, str]) -> float:
     """The rolling friction of a geom of MJCF, as far as its contacts have any."""
-    numbers = tuple(map(float, geom.get("friction", "").split()))
+    numbers = numbers_in(geom.get("friction"))
     is_used = int(geom.get("condim", USUAL_CONDIM)) == ROLLING_CONDIM
     return (*numbers, *USUAL_FRICTION[len(numbers) :])[2] if is_used else 0.0
 

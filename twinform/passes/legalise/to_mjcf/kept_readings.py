@@ -7,7 +7,6 @@ collisions of which it tells contacts, stand in a carrier where reading would ma
 import math
 from collections.abc import Iterator
 
-from twinform.diagnostics import Fate, rules
 from twinform.ir import Element, Sensor
 from twinform.ir.kinematic_tree import JointBetween
 from twinform.ir.pose import Pose
@@ -35,7 +34,7 @@ _FARTHEST = 100.0
 def add_kept_readings(context: MjcfContext, sensor: Sensor, body: Body, joint: JointBetween | None = None) -> bool:
     """Add the readings that a sensor of a body, or of the joint that holds it, keeps; tell whether it has any.
 
-    Those that are another sensor by now are reported, and are none.
+    Where the sensor has become another one since, they are reported and left out.
     """
     kept = [reading for each in kept_elements(sensor) if each.name == "sensor" for reading in each.children]
     if not kept:
@@ -43,8 +42,7 @@ def add_kept_readings(context: MjcfContext, sensor: Sensor, body: Body, joint: J
     site = next(_sites(context, sensor, body, joint, kept), None)
     if site is None or not _measures(sensor, body, kept) or _are_written(context, kept):
         message = f"<{kept[0].name}> is kept for sensor {sensor.name!r}, which is another one by now"
-        context.sink.account(Fate.DROPPED, rules.STALE_CARRIER, message, sensor.location, len(kept))
-        context.sink.report(rules.STALE_CARRIER, message, sensor.location, found=kept[0].name)
+        context.drop_stale(message, sensor.location, kept[0].name, len(kept))
         return False
     written = context.written_sites[site.name]
     context.kept_readings += [("", _at(each, written)) for each in kept]
@@ -113,7 +111,7 @@ def _collisions(sensor: Sensor) -> frozenset[str | None]:
 
 
 def _touching(body: Body) -> frozenset[str | None]:
-    return frozenset(each.name for each in body.link.collisions) if body.link.collisions else frozenset()
+    return frozenset(each.name for each in body.link.collisions)
 
 
 def _at(reading: Element, site: str) -> Element:

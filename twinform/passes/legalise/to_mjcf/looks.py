@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 from twinform.ir import Color, Element, Material, Visual
-from twinform.passes.legalise.to_mjcf.elements import Value
+from twinform.passes.legalise.to_mjcf.elements import Value, numbers_in
 from twinform.passes.legalise.to_mjcf.said_parts import child_number, untyped
 
 _BRIGHTEST = 128.0
@@ -135,7 +135,7 @@ def is_seen(material: Material, geom: Element, asset: Element | None) -> bool:
 
 
 def _numbers(element: Element | None, name: str) -> tuple[float, ...]:
-    return tuple(map(float, ((None if element is None else element.get(name)) or "").split()))
+    return numbers_in(None if element is None else element.get(name))
 
 
 def _clamped(rgba: Sequence[float]) -> Color:

@@ -12,18 +12,7 @@ from typing import NamedTuple
 
 from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, Fate, Location, Rule, rules
-from twinform.ir import (
-    Document,
-    Element,
-    Frame,
-    Joint,
-    Link,
-    Model,
-    Node,
-    Pose,
-    World,
-    replace_fields,
-)
+from twinform.ir import Document, Element, Frame, Joint, Link, Model, Node, Pose, World, replace_fields
 from twinform.ir.frames import WORLD, Kind
 from twinform.ir.kinematic_tree import JointBetween, KinematicTree
 from twinform.ir.record import Sourced
@@ -390,6 +379,11 @@ class MjcfContext:
     def approximate(self, rule: Rule, message: str, where: Location, weight: int = 1) -> None:
         """Enter what MJCF says in another way into the ledger."""
         self.sink.account(Fate.APPROXIMATED, rule, message, where, weight)
+
+    def drop_stale(self, message: str, where: Location, found: str, weight: int = 1) -> None:
+        """Report what is kept of MJCF and fits nothing any more, and enter it into the ledger as dropped."""
+        self.sink.account(Fate.DROPPED, rules.STALE_CARRIER, message, where, weight)
+        self.sink.report(rules.STALE_CARRIER, message, where, found=found)
 
 
 _IDENTITY = Transform()
