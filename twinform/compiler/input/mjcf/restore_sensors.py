@@ -6,7 +6,7 @@ from typing import NamedTuple, TypeVar
 from twinform.compiler.input.mjcf.carried_texts import report_stale
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Element, Frame, Joint, Light, Link, Model, Node, Opaque, Sensor, World, replace_fields, rewrite
-from twinform.passes.carriers.annotations import WORLDBODY, find_annotation, without_annotation
+from twinform.passes.carriers.annotations import find_annotation, without_annotation
 from twinform.passes.carriers.mjcf_texts import PARTS, digest_of
 from twinform.passes.carriers.partial_nodes import REST, written_name, written_names
 from twinform.passes.legalise.changed_names import NAME
@@ -39,7 +39,7 @@ def sensors_back(
 ) -> SensorsBack:
     """Find the sensors whose elements are in a canonical tree as they were written; the others are as they stand.
 
-    `there` are the names of the links of the file: what is kept of others is stale.
+    `there` are the names of links whose bodies need not have them: what is kept of others, and of no body, is stale.
 
     Those in bodies, and geoms whose contacts they tell, are still in the body of their link, or in the one that its
     joint moves.
@@ -78,7 +78,7 @@ def sensors_back(
 
     def of_link(link: Link) -> Link:
         body = bodies[link.name]
-        if body != WORLDBODY and body not in there:
+        if body not in there and ("body", body) not in elements:
             return replace_fields(link, sensors=(), lights=())
         return replace_fields(link, sensors=kept(link.sensors, body), lights=kept(link.lights, body))
 
