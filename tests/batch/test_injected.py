@@ -10,6 +10,7 @@ import sys
 from collections.abc import Callable, Iterator
 from concurrent.futures import BrokenExecutor, CancelledError, Executor, Future
 from contextlib import nullcontext, suppress
+from functools import partial
 from itertools import count
 from pathlib import Path
 from typing import Any
@@ -40,21 +41,29 @@ _CONFIG = '<model><sdf version="1.11">model.sdf</sdf></model>'
 
 
 class _Faults:
-    """Raises at one call that touches a file below a folder, and counts them all."""
+    """Lets something fail at one call that touches a file below a folder, and counts them all."""
 
     def __init__(self) -> None:
         self.folder, self.at, self.count = "", 0, 0
-        self.error: BaseException | None = None
+        self.fault: Callable[[], object] | None = None
 
     def hear(self, event: str, arguments: tuple[Any, ...]) -> None:
         if self.folder and event in _EVENTS and str(arguments[0]).startswith(self.folder):
             self.count += 1
-            if self.error is not None and self.count == self.at:
-                raise self.error
+            if self.fault is not None and self.count == self.at:
+                self.fault()
+
+    def begin(self, folder: Path, at: int, fault: Callable[[], object]) -> None:
+        """Count anew from the next call on."""
+        self.at, self.fault, self.count, self.folder = at, fault, 0, str(folder)
 
 
 _FAULTS = _Faults()
 sys.addaudithook(_FAULTS.hear)
+
+
+def _raise(error: BaseException) -> None:
+    raise error
 
 
 class _Here(Executor):
@@ -137,7 +146,8 @@ def _fail(run: Callable[[], None]) -> None:
 
 def _files(folder: str) -> dict[str, bytes]:
     """Results without what is hidden: where removing it is the call that fails, a file that was being written stays."""
-    return {name: text for name, text in results(folder).items() if not Path(name).name.startswith(".")}
+    found = results(folder).items()
+    return {name: text for name, text in found if not any(part.startswith(".") for part in Path(name).parts)}
 
 
 def _until_none(error: BaseException, *, fresh: bool) -> Iterator[int]:
@@ -146,8 +156,7 @@ def _until_none(error: BaseException, *, fresh: bool) -> Iterator[int]:
     while True:
 
         def run(at: int = at) -> None:
-            _FAULTS.at, _FAULTS.error, _FAULTS.count = at, error, 0
-            _FAULTS.folder = str(Path.cwd())
+            _FAULTS.begin(Path.cwd(), at, partial(_raise, error))
             _run("out", _Here(), fresh=fresh)
 
         _fail(run)
@@ -166,6 +175,33 @@ def _until_none(error: BaseException, *, fresh: bool) -> Iterator[int]:
 def test_a_call_that_fails_loses_no_result(error: BaseException, fresh: bool, here: Path) -> None:
     assert here.is_dir()
     assert max(_until_none(error, fresh=fresh)) > 40
+
+
+class _Unplugged(_Here):
+    """Takes the disk of the results away at a call that comes after the first job was handed over."""
+
+    def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
+        if not self.count:
+            _FAULTS.begin(Path("out").absolute(), self.at, lambda: Path("out").rename("away"))
+        return super().submit(fn, *args, **kwargs)
+
+
+def test_nothing_is_written_where_the_folder_of_the_results_was(here: Path) -> None:
+    for at in count(1, _STEP):
+
+        def run(at: int = at) -> None:
+            try:
+                _run("out", _Unplugged(at), fresh=True)
+            finally:
+                _FAULTS.folder = ""
+                if Path("away").is_dir():
+                    assert not Path("out").exists()
+                    Path("away").rename("out")
+
+        _fail(run)
+        if _FAULTS.count < at:
+            assert at > 10
+            break
 
 
 def _manifests(folder: str) -> dict[str, bytes]:
@@ -187,7 +223,7 @@ def test_a_merge_that_fails_leaves_the_manifests_of_all_shards(error: BaseExcept
     for at in count(1, _STEP):
         shutil.rmtree("out", ignore_errors=True)
         shutil.copytree("shards", "out")
-        _FAULTS.at, _FAULTS.error, _FAULTS.count, _FAULTS.folder = at, error, 0, str(here / "out")
+        _FAULTS.begin(here / "out", at, partial(_raise, error))
         with suppress(OSError, KeyboardInterrupt):
             merge(here / "out", [])
         _FAULTS.folder = ""

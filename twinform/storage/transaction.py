@@ -47,17 +47,17 @@ class Transaction:
         Raises:
             OSError: it cannot be made.
         """
-        try:
-            for each in reversed([*_missing(folder)]):
-                # Undo steps are recorded before the step itself: a signal may come between any two
-                # instructions.
-                self._undo.append(each.rmdir)
-                self._folders[each.parent] = None
-                with suppress(FileExistsError):  # another process was faster
-                    each.mkdir()
-            folder.mkdir(exist_ok=True)  # raises if it is a file
-        except FileExistsError as error:  # which would sound as if the file that is written were there
-            raise NotADirectoryError(errno.ENOTDIR, "a file stands where its folder would be") from error
+        for each in reversed([*_missing(folder)]):
+            # Undo steps are recorded before the step itself: a signal may come between any two
+            # instructions.
+            self._undo.append(each.rmdir)
+            self._folders[each.parent] = None
+            with suppress(FileExistsError):  # another process was faster
+                each.mkdir()
+        if not folder.is_dir():
+            if os.path.lexists(folder):  # otherwise it would sound as if the file that is written were there
+                raise NotADirectoryError(errno.ENOTDIR, "a file stands where its folder would be")
+            raise FileNotFoundError(errno.ENOENT, "its folder was removed meanwhile")
 
     def move(self, new: Path, target: Path, *, keep: bool = True) -> None:
         """Move a staged file to its place; what was there can be put back, unless it need not be kept.

@@ -7,7 +7,7 @@ about the model, so its results stay.
 
 import errno
 import json
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from functools import lru_cache
@@ -118,8 +118,7 @@ class Recorder:
         Raises:
             OSError: the disk is full or gone, or the manifest cannot be written.
         """
-        if self.manifest is not None:
-            self.manifest.require_in_place()
+        self._require_in_place()
         if done.known and task.known:
             record = replace(task.known, dependencies=done.dependencies or (), time=done.time)
         else:
@@ -137,6 +136,10 @@ class Recorder:
         if self.manifest is not None and not known.is_last:
             self.manifest.add(known.record)
         return ModelResult(known.record, known=True)
+
+    def _require_in_place(self) -> None:
+        if self.manifest is not None:
+            self.manifest.require_in_place()
 
     def _make_record(self, task: Task, done: Done) -> ModelRecord:
         record = ModelRecord(
@@ -167,7 +170,7 @@ class Recorder:
         if problem is None and self.manifest is not None:
             announced = tuple(Dependency(name, DependencyKind.READ, digest=digest) for name, digest in made.items())
             self.manifest.announce(record.source, announced)
-        problem = problem or _write_results(places.dest, done.texts)
+        problem = problem or _write_results(places.dest, done.texts, self._require_in_place)
         if problem is not None:
             return replace(record, outcome=Outcome.UNWRITTEN, message=f"it cannot be written: {problem}")
         places.take(done.texts)
@@ -181,17 +184,19 @@ class Recorder:
         return _supersede_results(self._places.dest, before, record)
 
 
-def _write_results(dest: Path, texts: Mapping[str, str | bytes]) -> str | None:
+def _write_results(dest: Path, texts: Mapping[str, str | bytes], require_in_place: Callable[[], None]) -> str | None:
     """Write results; return the reason where that is impossible.
 
     Raises:
-        OSError: the disk is full, which it will be for the others too.
+        OSError: the disk is full or gone, which it will be for the others too.
     """
     try:
         # Waiting for the disk took 7 ms per model, in the one process that writes. A power cut may leave an empty file:
         # its size is not the one in the manifest, so it is made again.
-        write_all_atomically({dest / name: text for name, text in texts.items()}, durably=False)
+        # What is written first makes missing folders, and would make `dest` anew where its disk went at this moment.
+        write_all_atomically({dest / name: text for name, text in texts.items()}, require_in_place, durably=False)
     except OSError as error:
+        require_in_place()
         if error.errno in _FULL:
             raise
         return error.strerror or str(error)
