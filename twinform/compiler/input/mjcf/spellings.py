@@ -100,6 +100,8 @@ class Spellings:
         parts = look_parts(_attributes(geom), self._asset) if geom is not None else []
         if digest_of(parts) != note.get("digest"):
             return node, partial.copy(material=None)
+        if note.get("kept"):  # its material has a name that somebody gave it in the file
+            return node.copy(material=None), partial
         self.agreed.update((tag, attributes["name"]) for tag, attributes in parts if "name" in attributes)
         return node.copy(material=None, opaque=_without_attributes(node.opaque, {"material"})), partial
 

@@ -16,6 +16,8 @@ _IMAGES = frozenset({".png", ".ktx"})
 """The images that MuJoCo reads."""
 _OF_COLORS = frozenset({"rgb", "rgba"})
 """The roles of images with the colors of a material."""
+_KEPT = "kept material"
+"""The kind of the materials in the files of a context that have the name which they were read with."""
 
 
 def with_known_material(context: MjcfContext, element: Element) -> Element:
@@ -24,6 +26,11 @@ def with_known_material(context: MjcfContext, element: Element) -> Element:
     if name is None or name in context.materials or name in context.names.get("material", ()):
         return element
     return element.copy(attributes=tuple(pair for pair in element.attributes if pair[0] != "material"))
+
+
+def is_kept_material(context: MjcfContext, name: str | None) -> bool:
+    """Whether a material of the file is one that visuals were read with, and has the name that it had then."""
+    return (_KEPT, name) in context.files
 
 
 def look_of(context: MjcfContext, body: Body, visual: Visual, twin: Collision | None = None) -> list[tuple[str, Value]]:
@@ -93,7 +100,7 @@ def _of_kept_material(
     The asset gets what visuals say of it, but for the color of a geom that had its own; what else it had is added where
     models keep it, with its images.
     """
-    key, assets = ("kept material", name), context.sections["asset"]
+    key, assets = (_KEPT, name), context.sections["asset"]
     if key not in context.files:
         context.names.setdefault("material", set()).add(name)
         images = _textures(context, visual, found) if context.kept_asset("material", name) is None else []

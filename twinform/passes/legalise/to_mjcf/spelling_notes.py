@@ -46,6 +46,7 @@ from twinform.passes.carriers.mjcf_texts import (
 )
 from twinform.passes.carriers.partial_nodes import PLACE, WRITTEN
 from twinform.passes.carriers.said_by_mjcf import said_by_mjcf
+from twinform.passes.legalise.to_mjcf.materials import is_kept_material
 from twinform.passes.legalise.to_mjcf.what_is_said import WhatIsSaid
 from twinform.passes.legalise.to_mjcf.written_file import Shape
 from twinform.passes.shared.poses import OFFSET, POSE, offset_attributes, pose_attributes
@@ -140,11 +141,12 @@ class SpellingNotes:
             yield from self.look(visual)
 
     def look(self, visual: Visual) -> Iterable[Opaque]:
-        """The digest of the elements that say how a visual looks, if it has a geom."""
+        """The digest of the elements that say how a visual looks, if it has a geom, and whether it kept its names."""
         geom = self.file.geom(visual)
         if geom is not None:
             digest = digest_of(look_parts(dict(geom.attributes), self.file.asset))
-            yield annotation(LOOK_OF, attributes={"digest": digest})
+            is_kept = is_kept_material(self.context, geom.get("material"))
+            yield annotation(LOOK_OF, attributes={"digest": digest, "kept": "true" if is_kept else None})
 
     def on_shape(self, part: Shape) -> Iterable[Opaque]:
         """The file that stands for a shape; where one without a geom is in its link: in URDF only the place tells."""
