@@ -1,7 +1,7 @@
 """Kept elements of MJCF that name parts which are not there any more: they go, and are reported as stale.
 
 An actuator, a sensor, a tendon or a constraint is nothing without what it is about, and neither is what is about that.
-So is a camera or light that follows a body.
+So is a camera or light that follows a body, and a geom without the mesh or terrain that is its shape.
 """
 
 from collections.abc import Iterable, Iterator
@@ -19,8 +19,8 @@ _SCENE = frozenset({"worldbody", "asset"})
 """Sections whose elements are something without what they name."""
 _UNASKED = _SCENE | SINGLE | {NO_SECTION}
 """Settings name no parts, and what stands beside the sections, as in a file to include, names parts of other files."""
-_TARGET = "target"
-"""The attribute of a camera or light that follows a body, which SDF has no words for."""
+_NEEDED = ("target", "mesh", "hfield")
+"""What an element of a body is nothing without: what a camera or light follows, and the asset that a geom shows."""
 Name = tuple[str, str]
 """The kind and the name of a part."""
 
@@ -33,6 +33,7 @@ def drop_dangling_parts(context: MjcfContext) -> None:
     for name in _SCENE & context.sections.keys():
         context.sections[name] = [*left.among(context.sections[name])]
     # What names an element that has gone goes too.
+    left = _Left(context, made)
     while left.drop_once():
         continue
 
@@ -66,8 +67,15 @@ class _Left:
         return element.copy(attributes=attributes, children=self.among(element.children))
 
     def among(self, elements: Iterable[Element]) -> tuple[Element, ...]:
-        """Those of some elements of bodies that do not follow one which is not there."""
-        return tuple(self.in_scene(each) for each in elements if each.get(_TARGET) is None or not self._is_stale(each))
+        """Those of some elements of bodies that do not follow or show something which is not there."""
+        return tuple(self.in_scene(each) for each in elements if not self._is_nothing(each))
+
+    def _is_nothing(self, element: Element) -> bool:
+        gone = dict(self._gone(element))
+        found = next((gone[key] for key in _NEEDED if key in gone), None)
+        if found is not None:
+            self._report(element, found)
+        return found is not None
 
     def _is_stale(self, element: Element) -> bool:
         found = next((name for each in element.walk() for _, name in self._gone(each)), None)

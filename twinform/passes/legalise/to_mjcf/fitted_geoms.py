@@ -43,10 +43,10 @@ def fitted_mark(shape: Shape, mesh: Transform) -> Opaque:
 def fitted_mesh(part: Node, shape: Shape, asset: Element | None) -> Transform | None:
     """The frame of the mesh to which the shape of a visual or collision is fitted; None where it is not, or no more.
 
-    `asset` is what is kept of that mesh.
+    `asset` is what is kept of that mesh; without it there is nothing to fit to.
     """
     mark = find_annotation(part, FITTED)
-    if mark is None or mark.get("type") != shape.kind:
+    if asset is None or mark is None or mark.get("type") != shape.kind:
         return None
     fitted, size = numbers_in(mark.get("size")), geom_size(shape)
     if len(fitted) != len(size) or not all(
@@ -56,7 +56,7 @@ def fitted_mesh(part: Node, shape: Shape, asset: Element | None) -> Transform | 
     x, y, z = numbers_in(mark.get("pos")) or (0.0, 0.0, 0.0)
     w, i, j, k = numbers_in(mark.get("quat")) or (1.0, 0.0, 0.0, 0.0)
     file = Transform.from_pose(Pose.unchecked(xyz=(x, y, z), quat_xyzw=(i, j, k, w)))
-    return file if asset is None else file.compose(_reference(asset))
+    return file.compose(_reference(asset))
 
 
 def _reference(asset: Element) -> Transform:

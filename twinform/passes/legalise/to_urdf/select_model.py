@@ -1,14 +1,15 @@
 """Selecting the model that becomes the robot."""
 
 from collections import defaultdict
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from typing import ClassVar
 
 from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, Fate, Location, rules
-from twinform.ir import Document, Format, Include, Model, Node, Opaque, World, count_parts
+from twinform.ir import Document, Element, Format, Include, Model, Node, Opaque, World, count_parts
 from twinform.ir.frames import WORLD, FrameError, FrameGraph
 from twinform.passes.framework.pass_base import Pass
+from twinform.passes.legalise.to_mjcf.named_assets import NamedAssets, without_assets
 from twinform.passes.shared.candidates import ModelCandidate, candidates
 
 
@@ -16,7 +17,8 @@ class SelectModel(Pass):
     """Take one model out of a file, and its world away.
 
     Changes: the document has the model named by `model` (or `world::model`), or the only one there is, and nothing
-    else. A pose in a frame of the world becomes a pose in the world.
+    else. A pose in a frame of the world becomes a pose in the world. The model keeps the meshes and materials of MJCF
+    that it names.
     Diagnostics: `model-not-chosen`, `include-not-expanded`; in the ledger `outside-model` for each part left out.
     """
 
@@ -71,7 +73,9 @@ def _keep_only(
     document: Document, chosen: "_Chosen", graph_of: Callable[[World], FrameGraph], sink: DiagnosticSink
 ) -> Document:
     """The document with nothing but the chosen model, at its place in the world."""
-    model = chosen.model if chosen.world is None else _place_in_world(chosen.model, chosen.world, graph_of, sink)
+    model, world = chosen.model, chosen.world
+    if world is not None:
+        model = NamedAssets.of(world).with_model(_place_in_world(model, world, graph_of, sink))
     return document.copy(models=(model,), worlds=(), lights=(), includes=(), opaque=())
 
 
@@ -149,7 +153,7 @@ def _parts_outside(document: Document, chosen: _Chosen) -> Iterator[_CarriedPart
             yield _CarriedPart(f"world {world.name!r}", world.location, count_parts(world))
             continue
         yield _CarriedPart(f"world {world.name!r} around the model", world.location.at("@name"), 2)
-        yield from _opaque_parts(world)
+        yield from _opaque_parts(world, NamedAssets.of(world).named_in(chosen.model))
         if world.gravity is not None:
             yield _CarriedPart("<gravity> of the world", world.location.at("gravity"), 1)
         for field in ("models", "includes", "lights", "frames", "joints", "plugins"):
@@ -163,9 +167,12 @@ def _node_parts(nodes: tuple[Node, ...], field: str, chosen: Model) -> Iterator[
             yield _CarriedPart(f"{field[:-1]} {name!r}", node.location, count_parts(node))
 
 
-def _opaque_parts(node: Node) -> Iterator[_CarriedPart]:
+def _opaque_parts(node: Node, assets: Collection[Element] = ()) -> Iterator[_CarriedPart]:
+    """Yield the untyped parts of a document or world, without assets that go with the model."""
     for part in node.opaque:
-        yield _CarriedPart(_describe(part), part.location_in(node), part.weight)
+        left = without_assets(part, assets)
+        if left is not None:
+            yield _CarriedPart(_describe(part), part.location_in(node), left.weight)
 
 
 def _describe(part: Opaque) -> str:

@@ -115,3 +115,19 @@ def test_a_frame_that_nobody_knows_is_an_error() -> None:
     SelectModel(model="m").run(document, sink)
     (one,) = sink.diagnostics
     assert (one.rule.name, one.message, one.found) == ("dangling-frame", "there is no frame 'dock'", "dock")
+
+
+MJCF = """<sdf version="1.11" xmlns:tf="urn:twinform:1"><world name="w">
+<model name="m"><link name="a"><tf:mjcf><geom type="mesh" mesh="post" material="wood"/></tf:mjcf></link></model>
+<model name="n"><link name="b"/></model>
+<tf:mjcf><asset><texture name="grain"/><material name="wood" texture="grain"/><mesh name="post"/>
+<mesh name="b"/></asset></tf:mjcf></world></sdf>"""
+
+
+def test_assets_of_mjcf_go_with_the_model_that_names_them() -> None:
+    _, sink, made = selected(MJCF, "m")
+    assets = [each.get("name") for part in made.models[0].opaque if part.element for each in part.element.walk()]
+    assert [each for each in assets if each] == ["grain", "wood", "post"]
+    # the element of ours, the section, and a mesh with its name
+    assert [each.weight for each in sink.entries if "mjcf" in each.location.path] == [4]
+    assert not selected(MJCF, "n")[2].models[0].opaque
