@@ -17,7 +17,7 @@ from twinform.passes.legalise.to_mjcf.elements import make_element, placement
 from twinform.passes.legalise.to_mjcf.geoms import geom_elements
 from twinform.passes.legalise.to_mjcf.inertials import has_usual_weight, inertial_elements, report_weightless, weight_of
 from twinform.passes.legalise.to_mjcf.joints import joint_elements
-from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements, with_kept
+from twinform.passes.legalise.to_mjcf.kept_mjcf import is_shape, kept_elements, with_kept
 from twinform.passes.legalise.to_mjcf.lights import body_lights
 from twinform.passes.legalise.to_mjcf.sensors import body_sensors, joint_sensors
 from twinform.passes.legalise.to_mjcf.sites import body_sites
@@ -166,7 +166,7 @@ class _BodyTree:
             *(part for each in hold.joints for part in joint_sensors(context, body, each)),
             *body_sensors(context, body),
             *body_lights(context, body),
-            *(each for each in kept_elements(body.link) if each.name in _INSIDE),
+            *_kept_inside(context, body.link),
         ]
 
     def _element(self, body: Body, hold: Hold, children: list[Element]) -> Element:
@@ -181,6 +181,17 @@ class _BodyTree:
             self.context.mocap.add(body.name)
             return element
         return element.copy(attributes=tuple(pair for pair in element.attributes if pair[0] != _MOCAP))
+
+
+def _kept_inside(context: MjcfContext, link: Link) -> Iterator[Element]:
+    """Yield what a link keeps of what stood in its body; what says something of a geom that it lacks is stale."""
+    for each in kept_elements(link):
+        if each.name == "geom" and not is_shape(each):
+            where = each.location if each.source else link.location
+            message = f"link {link.name!r} keeps a <geom> without a shape, which none of its visuals and collisions has"
+            context.drop_stale(message, where, "geom")
+        elif each.name in _INSIDE:
+            yield each
 
 
 def _world_link(context: MjcfContext) -> str | None:

@@ -40,6 +40,8 @@ WITHOUT_CONTROL_LIMIT = frozenset({"damper", "adhesion", "orientation"})
 """Actuators without `ctrllimited`."""
 TARGETS = ("joint", "jointinparent", "tendon", "site", "body", "slidersite")
 """The attributes of actuators that say what they drive."""
+_SHAPES = ("size", "mesh", "hfield")
+"""The attributes of geoms of which one says a shape, together with the type."""
 SINGLE = frozenset({"compiler", "option", "size", "visual", "statistic"})
 """Sections that are one element with attributes: what is added to them is merged."""
 KNOWN = SINGLE.union(SECTIONS, (ROOT,))
@@ -50,6 +52,11 @@ def kept_elements(node: Node) -> Sequence[Element]:
     """The elements of MJCF that a node keeps."""
     kept = [each.element for each in node.opaque if each.element is not None and each.element.name == KEPT]
     return [child for each in kept for child in each.children] if kept else ()
+
+
+def is_shape(kept: Element) -> bool:
+    """Whether what is kept is a geom of its own, such as one of a mesh without a file, and not the rest of another."""
+    return kept.name == "geom" and (bool(kept.children) or any(kept.get(name) for name in _SHAPES))
 
 
 def with_kept(element: Element, node: Node) -> Element:

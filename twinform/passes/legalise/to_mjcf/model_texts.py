@@ -16,7 +16,7 @@ from twinform.passes.carriers.mjcf_texts import SEVERAL, TREE
 from twinform.passes.carriers.partial_nodes import REST, WRITTEN, is_bare, remainder
 from twinform.passes.carriers.said_by_mjcf import said_by_mjcf
 from twinform.passes.legalise.to_mjcf.file_models import FileModels
-from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements
+from twinform.passes.legalise.to_mjcf.kept_mjcf import is_shape, kept_elements
 from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext
 from twinform.passes.legalise.to_mjcf.written_file import WrittenFile
 
@@ -87,7 +87,7 @@ def _touches_beside(model: Model, name: str, context: MjcfContext, *, is_still: 
 
 def _keeps_what_touches(model: Model) -> bool:
     """Whether links keep geoms of MJCF that touch anything, of shapes that SDF does not have."""
-    geoms = (each for link in model.links for each in kept_elements(link) if each.name == "geom")
+    geoms = (each for link in model.links for each in kept_elements(link) if is_shape(each))
     return any((each.get("contype"), each.get("conaffinity")) != ("0", "0") for each in geoms)
 
 
