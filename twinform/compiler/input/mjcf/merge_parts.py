@@ -11,7 +11,7 @@ from twinform.compiler.input.mjcf.joined_joints import join_joints
 from twinform.compiler.input.mjcf.nested_back import is_nested_in, nested_back
 from twinform.compiler.input.mjcf.renamed_parts import name_in_file, with_hidden_names
 from twinform.compiler.input.mjcf.restore_contacts import kept_apart
-from twinform.compiler.input.mjcf.restore_loops import is_loop, loops_back
+from twinform.compiler.input.mjcf.restore_loops import NamesByFile, is_loop, loops_back
 from twinform.compiler.input.mjcf.restore_sensors import (
     restored_settings,
     sensors_back,
@@ -147,11 +147,11 @@ class _PartMerging:
         closed = [(each, parent, child) for each, parent, child in found if parent is not None and child is not None]
         self._used.update(id(each) for each, _, _ in closed)
         names = {name_in_file(each): each.name for each in model.joints}
-        loops = [_called(each, names).copy(parent=parent, child=child) for each, parent, child in closed]
+        loops = [each.copy(parent=parent, child=child) for each, parent, child in closed]
         model, left = join_joints(model, chains)
         for each in left:
             report_stale(self.sink, f"joint {each.name!r} is no joint of type {each.type} any more", each.source)
-        back = loops_back(model, loops, bodies, self.root, self.sink)
+        back = loops_back(model, loops, NamesByFile(bodies, names), self.root, self.sink)
         kept = frozenset((tag, name) for tag in ("connect", "weld") for name in back.names)
         return without_parts_of_sensors(back.model, kept)
 

@@ -3,7 +3,7 @@
 What stands in the file always counts. A carrier fills what is open, and gives names, frames and notations back.
 """
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import TypeVar
 
 from twinform.compiler.input.mjcf.carried_texts import CarriedText, are_of_sdf, nodes_of, report_stale, report_unmerged
@@ -14,7 +14,7 @@ from twinform.compiler.input.mjcf.names import safe_name
 from twinform.compiler.input.mjcf.one_model import one_model
 from twinform.compiler.input.mjcf.renamed_parts import name_in_file, renamed_parts
 from twinform.compiler.input.mjcf.restore_contacts import settle_contacts
-from twinform.compiler.input.mjcf.restore_loops import is_loop, loops_back
+from twinform.compiler.input.mjcf.restore_loops import NamesByFile, is_loop, loops_back
 from twinform.compiler.input.mjcf.restore_sensors import (
     restored_settings,
     sensors_back,
@@ -80,6 +80,7 @@ class _Merged:
         self.texts = texts
         self.sink = sink
         self.parts = frozenset[tuple[str, str]]()
+        self.names: Mapping[str, str] = {}
         self.holds: tuple[Joint, ...] = ()
         self.spellings = Spellings(root)
         self.merging = Merging(self.spellings)
@@ -109,12 +110,15 @@ class _Merged:
 
     def _named(self, model: Model) -> Model:
         """The model whose parts have the names that they had before they were written."""
-        return renamed_parts(model, self.links, self.joints, self.frames)
+        named = renamed_parts(model, self.links, self.joints, self.frames)
+        self.names = {name_in_file(old): new.name for old, new in zip(model.joints, named.joints, strict=True)}
+        return named
 
     def _with_loops(self, model: Model) -> Model:
         """The model with the joints that closed loops in place of the constraints that do, if these still do."""
         links = {written: each.name for each in self.links for written in written_names(each)}
-        back = loops_back(model, filter(is_loop, self.joints), links, self.root, self.sink)
+        names = NamesByFile(links, self.names)
+        back = loops_back(model, filter(is_loop, self.joints), names, self.root, self.sink)
         self.spellings.agreed.update((tag, each) for tag in ("connect", "weld") for each in back.names)
         self.joints = [each for each in self.joints if not is_loop(each)]
         return back.model

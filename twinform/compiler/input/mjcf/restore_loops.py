@@ -1,21 +1,30 @@
 """Joints that close loops, in place of the constraints of MJCF that do: they come back while these hold the same links.
 
-A hinge that closes a loop is two points at which bodies are held together. What a carrier has of it is the whole joint.
+A hinge that closes a loop is two points at which bodies are held together. What a carrier has of it is the whole joint,
+which goes to where these points are by now.
 """
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
+from math import dist
 from typing import NamedTuple
 
 from twinform.compiler.input.mjcf.carried_texts import report_stale
+from twinform.compiler.input.mjcf.number_lists import numbers_of
 from twinform.diagnostics import DiagnosticSink
-from twinform.ir import Joint, Model, Opaque
+from twinform.ir import Joint, Model, Opaque, Pose
+from twinform.ir.frames import MODEL, WORLD, FrameError, FrameGraph, Kind
+from twinform.ir.node import Vector3
+from twinform.ir.transform import Transform, rounded
 from twinform.passes.carriers.annotations import find_annotation, without_annotation
 from twinform.passes.carriers.mjcf_texts import LOOP
 from twinform.passes.carriers.partial_nodes import REST, WRITTEN, written_names
+from twinform.passes.legalise.to_mjcf.equalities import ARM, held_points
 from twinform.passes.legalise.to_mjcf.kept_mjcf import KEPT
 from twinform.schemas import XmlElement
 
 Ends = tuple[str | None, str | None]
+_CLOSE = 1e-5
+"""How far apart two points may be that are one, in m: programs that save MJCF write six digits."""
 
 
 class LoopsBack(NamedTuple):
@@ -25,44 +34,127 @@ class LoopsBack(NamedTuple):
     names: frozenset[str]
 
 
+class NamesByFile(NamedTuple):
+    """The names that links and joints have in a model, by those of their bodies, joints and constraints in the file."""
+
+    links: Mapping[str, str]
+    joints: Mapping[str, str]
+
+
 def is_loop(partial: Joint) -> bool:
     """Whether a partial joint closed a loop."""
     return find_annotation(partial, LOOP) is not None
 
 
 def loops_back(
-    model: Model, loops: Iterable[Joint], links: Mapping[str, str], root: XmlElement, sink: DiagnosticSink
+    model: Model, loops: Iterable[Joint], names: NamesByFile, root: XmlElement, sink: DiagnosticSink
 ) -> LoopsBack:
-    """Put joints that closed loops in place of the constraints that do, if these still do.
-
-    `links` has the names of links by those of bodies.
-    """
+    """Put joints that closed loops in place of the constraints that do, if these still do."""
     loops = tuple(loops)
     if not loops:
         return LoopsBack(model, frozenset())
-    joints, beside = {each.name: each for each in model.joints}, _held_together(root, links)
-    opened: set[str] = set()
-    closed: list[Joint] = []
-    for partial in loops:
-        names = written_names(partial)
-        parts = [joints[each] for each in names if each in joints]
-        ends: list[Ends] = [(each.parent, each.child) for each in parts]
-        ends += [beside[each] for each in names if each in beside] if not ends else ()
-        if len(ends) != len(names) or set(ends) != {(partial.parent, partial.child)}:
-            message = f"the loop that joint {partial.name!r} closed is another one now"
-            report_stale(sink, message, partial.source)
-            continue
-        opened.update(names)
-        bare = without_annotation(partial, LOOP, REST, WRITTEN)
-        closed.append(bare.copy(opaque=(*bare.opaque, *_kept(parts))))
-    left = (each for each in model.joints if each.name not in opened)
-    return LoopsBack(model.copy(joints=(*left, *closed)), frozenset(opened))
+    constraints = _Constraints(model, loops, names, root)
+    closed = constraints.closed()
+    opened = [name for each in closed for name in written_names(each)]
+    found = {each.name for each in closed}
+    for each in loops:
+        if each.name not in found:
+            report_stale(sink, f"the loop that joint {each.name!r} closed is another one now", each.source)
+    back = tuple(constraints.whole(each) for each in closed)
+    gone = {names.joints.get(each, each) for each in opened}
+    left = (each for each in model.joints if each.name not in gone)
+    return LoopsBack(model.copy(joints=(*left, *back)), frozenset(opened))
 
 
-def _held_together(root: XmlElement, links: Mapping[str, str]) -> Mapping[str, Ends]:
-    """The links that each equality holds together, by its name: bodies of several trees have no joint for it."""
-    found = ((each.get("name"), each.get("body1"), each.get("body2")) for each in root.iterfind("equality/*"))
-    return {name: (links.get(one or "", one), links.get(other or "", other)) for name, one, other in found if name}
+class _Constraints:
+    """The constraints of a file by their names, with the joints that they were lowered to, if they were."""
+
+    def __init__(self, model: Model, loops: Sequence[Joint], names: NamesByFile, root: XmlElement) -> None:
+        self.model, self.loops, self.names = model, loops, names
+        self.joints = {each.name: each for each in model.joints}
+        self.elements = {each.get("name") or "": each for each in root.iterfind("equality/*")}
+
+    def closed(self) -> list[Joint]:
+        """The joints that still close loops, where these constraints hold their links together."""
+        found = [each for each in self.loops if self._hold(each)]
+        while (placed := self._placed(found)) != found:  # the pose of one may be in the frame of another
+            found = placed
+        return found
+
+    def whole(self, joint: Joint) -> Joint:
+        """A joint that closes a loop, with what only MJCF says of its constraints."""
+        bare = without_annotation(joint, LOOP, REST, WRITTEN)
+        return bare.copy(opaque=(*bare.opaque, *_kept(self._joints_of(written_names(joint)))))
+
+    def _joints_of(self, written: Iterable[str]) -> list[Joint]:
+        """The joints that constraints were lowered to: those between several trees of bodies are none."""
+        found = (self.joints.get(self.names.joints.get(each, each)) for each in written)
+        return [each for each in found if each is not None]
+
+    def _hold(self, partial: Joint) -> bool:
+        """Whether all constraints that stood for a joint hold its links together."""
+        written = written_names(partial)
+        ends: list[Ends] = [(each.parent, each.child) for each in self._joints_of(written)]
+        if not ends:
+            ends = [self._ends(self.elements[each]) for each in written if each in self.elements]
+        return len(ends) == len(written) and set(ends) == {(partial.parent, partial.child)}
+
+    def _placed(self, loops: Sequence[Joint]) -> list[Joint]:
+        """Joints where their constraints are, without those that would hold their links together in another way."""
+        gone = {self.names.joints.get(name, name) for each in loops for name in written_names(each)}
+        tree = (each for each in self.model.joints if each.name not in gone)
+        graph = FrameGraph(self.model.copy(joints=(*tree, *loops)))
+        return [placed for each in loops if (placed := self._at_anchors(each, graph)) is not None]
+
+    def _at_anchors(self, joint: Joint, graph: FrameGraph) -> Joint | None:
+        found = (_anchor(self.elements.get(each)) for each in written_names(joint))
+        anchors = [each for each in found if each is not None]
+        return next((each for each in (joint, _moved(joint, anchors)) if _is_at(each, anchors, graph)), None)
+
+    def _ends(self, element: XmlElement) -> Ends:
+        first, second = element.get("body1"), element.get("body2")
+        return self.names.links.get(first or "", first), self.names.links.get(second or "", second)
+
+
+def _is_at(joint: Joint, anchors: Sequence[Vector3], graph: FrameGraph) -> bool:
+    """Whether a joint holds its links together at these points, in the frame of the first of them."""
+    parent = joint.parent or MODEL
+    base: Kind = "world" if parent == WORLD else "link"
+
+    def place(frame: str | None) -> Transform:
+        if frame is not None:
+            return graph.pose(frame, parent, kind="joint", base=base)
+        return graph.resolve(joint.pose, joint.child or MODEL, parent, base=base)
+
+    try:
+        points = held_points(joint, place)
+    except FrameError:  # the frame of its pose is gone
+        return False
+    return len(points) == len(anchors) and all(map(_are_close, points, anchors))
+
+
+def _anchor(constraint: XmlElement | None) -> Vector3 | None:
+    """The point at which a constraint holds bodies together, in the frame of the first; None where it is a weld."""
+    if constraint is None or constraint.tag != "connect":
+        return None
+    x, y, z = numbers_of(constraint, "anchor", (0.0, 0.0, 0.0), count=3) or (0.0, 0.0, 0.0)
+    return x, y, z
+
+
+def _moved(partial: Joint, anchors: Sequence[Vector3]) -> Joint:
+    """The joint at the first of these points, with its axis through the second, if there is one."""
+    if not anchors:
+        return partial
+    first, last = anchors[0], anchors[-1]
+    moved = partial.copy(pose=Pose.unchecked(xyz=first, relative_to=partial.parent))
+    if len(anchors) == 1 or partial.axis is None:
+        return moved
+    along = rounded(((last[0] - first[0]) / ARM, (last[1] - first[1]) / ARM, (last[2] - first[2]) / ARM))
+    return moved.copy(axis=partial.axis.copy(xyz=along, expressed_in=None))
+
+
+def _are_close(one: Vector3, other: Vector3) -> bool:
+    return dist(one, other) <= _CLOSE
 
 
 def _kept(parts: Iterable[Joint]) -> Iterable[Opaque]:

@@ -4,6 +4,8 @@ A ball is a `connect` at its origin, a fixed joint a `weld`, and a hinge two `co
 hold bodies where these are drawn. Joints of other types hold nothing in MJCF, and are carried.
 """
 
+from collections.abc import Callable
+
 from twinform.diagnostics import Fate, rules
 from twinform.ir import Element, Joint
 from twinform.ir.defaults import direction
@@ -77,29 +79,32 @@ def _equality(tag: str, name: str, attributes: list[tuple[str, Value]], joint: J
 
 
 def _points(context: MjcfContext, between: JointBetween) -> list[Vector3]:
-    """The points in the frame of the parent where both bodies have to stay together; none for other types of joints."""
-    joint = between.joint
+    parent = between.parent if between.parent in context.tree.links else None
+    scope = scope_of(between.name)
+
+    def place(frame: str | None) -> Transform:
+        name = between.name if frame is None else frame if frame == WORLD else scope + frame
+        return context.place(name, parent, kind="joint")
+
+    return held_points(between.joint, place)
+
+
+def held_points(joint: Joint, place: Callable[[str | None], Transform]) -> list[Vector3]:
+    """The points in the frame of the parent where both bodies have to stay together; none for other types of joints.
+
+    `place` tells where a frame is in that of the parent, and where the joint is for None.
+    """
     if joint.type not in _BALLS | _HINGES:
         return []
-    parent = between.parent if between.parent in context.tree.links else None
-    at = context.place(between.name, parent, kind="joint")
+    at = place(None)
     if joint.type in _BALLS:
         return [at.translation]
-    x, y, z = _axis(context, between, at)
+    axis = joint.axis
+    frame = place(axis.expressed_in) if axis is not None and axis.expressed_in else at
+    x, y, z = frame.rotate(direction(axis, Format.SDF))
     length = (x * x + y * y + z * z) ** 0.5 or 1.0
     along = (at.translation[0] + ARM * x / length, at.translation[1] + ARM * y / length)
     return [at.translation, (*along, at.translation[2] + ARM * z / length)]
-
-
-def _axis(context: MjcfContext, between: JointBetween, at: Transform) -> Vector3:
-    """The direction of the axis in the frame of the parent."""
-    axis = between.joint.axis
-    written = direction(axis, Format.SDF)
-    if axis is None or not axis.expressed_in:
-        return at.rotate(written)
-    frame = axis.expressed_in if axis.expressed_in == WORLD else scope_of(between.name) + axis.expressed_in
-    parent = between.parent if between.parent in context.tree.links else None
-    return context.place(frame, parent, kind="joint").rotate(written)
 
 
 def _body(context: MjcfContext, link: str) -> str:
