@@ -117,8 +117,8 @@ def judge(
         compared, read, when_back = _compared(file, made.text, back)
         in_engines, not_read = _in_engines(file, made.text, back, before.to)
     except CompileError as error:
-        if file.language == "mjcf" and is_refused_by_mujoco(file):  # it must not come back
-            return replace(_refused(error), result=made.text)
+        if file.language == "mjcf" and is_refused_by_mujoco(file):  # it must not come back, and no trip goes on
+            return _refused(error)
         return Verdict(fault, (f"not compared: {error}",), warned, made.text)
     except Exception as error:  # noqa: BLE001 - a result that cannot be read is no result
         return Verdict(fault, (f"not compared: {type(error).__name__}: {error}",), warned, made.text)
