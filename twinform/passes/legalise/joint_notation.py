@@ -135,7 +135,9 @@ class RestoreJoints(ModelPass):
 
 
 def _restore_joint(joint: Joint, sink: DiagnosticSink) -> Joint:
-    joint = _restore_mimic(without_annotation(joint, SYNTHESIZED), sink)
+    if joint.type != "prismatic":  # which are the slides that a planar joint has just become
+        joint = without_annotation(joint, SYNTHESIZED)
+    joint = _restore_mimic(joint, sink)
     axes = {
         name: axis for name in _AXIS_FIELDS if (axis := getattr(joint, name)) is not None and axis.limit is not None
     }

@@ -25,6 +25,7 @@ from twinform.ir.frames import MODEL, WORLD
 from twinform.ir.scopes import SCOPE
 from twinform.passes.carriers.annotations import (
     MADE_NAME,
+    annotate_synthesized,
     annotation,
     find_annotation,
     is_synthesized,
@@ -148,8 +149,7 @@ class AddedTexts(TextList):
 
     def _is_needless(self, left: Node, node: Node) -> bool:
         """Whether what is left of a node says nothing: notes alone that tell of no name, URI, chain or shape."""
-        is_chain = isinstance(node, Joint) and node.type in CHAINS and node.type != "ball"
-        has_more = is_chain or _tells_of_names(left) or _has_more_shapes(left)
+        has_more = (isinstance(node, Joint) and _is_of_chain(node)) or _tells_of_names(left) or _has_more_shapes(left)
         return is_bare(self._without_what_names(left, node)) and not has_more
 
     def _without_what_names(self, left: Node, node: Node) -> Node:
@@ -240,6 +240,15 @@ class AddedTexts(TextList):
         yield from (annotation(WRITTEN, attributes={"as": each}) for each in names)
 
 
+def _is_of_chain(joint: Joint) -> bool:
+    """Whether a joint is several in MJCF, or is one of several that a planar joint has become."""
+    return (joint.type in CHAINS and joint.type != "ball") or _is_slide_of_planar(joint)
+
+
+def _is_slide_of_planar(joint: Joint) -> bool:
+    return joint.type == "prismatic" and is_synthesized(joint)
+
+
 def _without_hidden(joint: Joint) -> Joint:
     """A joint without the link between it and the next one of a body, if that has the name that it is read with."""
     return joint.copy(child=None) if (joint.child or "").startswith(f"{joint.name}_link") else joint
@@ -277,6 +286,8 @@ def _own_name(name: str) -> str:
 def _without_what_file_has(part: Link | Joint) -> Link | Joint:
     """A part without what only MJCF says of it; a light comes back as a whole, and keeps that."""
     bare = without_parts(part, is_of_mjcf)
+    if isinstance(part, Joint) and _is_slide_of_planar(part):
+        return annotate_synthesized(bare)
     return bare.copy(lights=part.lights) if isinstance(part, Link) and part.lights else bare
 
 

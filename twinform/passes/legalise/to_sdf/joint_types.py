@@ -8,7 +8,13 @@ from twinform.ir import Axis, Element, Format, Joint, Limit, Link, Mimic, Model,
 from twinform.ir.defaults import AXIS, direction, with_range
 from twinform.ir.motion import plane_across
 from twinform.ir.verify.verify_joints import useless_leader
-from twinform.passes.carriers.annotations import annotate_synthesized, came_from, is_synthesized
+from twinform.passes.carriers.annotations import (
+    SYNTHESIZED,
+    annotate_synthesized,
+    came_from,
+    is_synthesized,
+    without_annotation,
+)
 from twinform.passes.carriers.carriers import NAMESPACE, Keeper, carry, to_element
 from twinform.passes.carriers.token_mass import TOKEN
 from twinform.passes.framework.pass_base import ModelPass
@@ -82,7 +88,9 @@ class UrdfJoints(ModelPass):
             if joint.type != "planar":
                 joints.append(joint)
                 continue
-            chain = planar_chain(joint, planar_names(joint.name, taken))
+            # no pass synthesizes a planar joint, so whoever made it one has changed what was synthesized
+            planar = without_annotation(joint, SYNTHESIZED)
+            chain = planar_chain(planar, planar_names(joint.name, taken))
             links[joint.child] = tuple(self._mark_synthesized(link) for link in chain.links)
             slide, shift, turn = chain.joints
             joints += [

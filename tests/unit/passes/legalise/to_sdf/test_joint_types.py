@@ -6,8 +6,10 @@ from math import hypot
 import pytest
 
 import twinform
+from twinform.diagnostics.rules import STALE_CARRIER
 from twinform.ir import Model
 from twinform.ir.frames import FrameGraph
+from twinform.request_options import Language
 
 ROBOT = """
 <robot name="r">
@@ -75,3 +77,27 @@ def test_without_carriers_it_stays_a_chain():
     sdf = twinform.convert(ROBOT.format(axis="0 0 1").encode(), to="sdf", carriers=False).text
     again = twinform.loads(twinform.convert(sdf.encode(), to="urdf").text).models[0]
     assert [joint.type for joint in again.joints] == ["prismatic", "prismatic", "continuous", "continuous"]
+
+
+FROM_SDF = '<tf:from xmlns:tf="urn:twinform:1" format="sdf" version="1.11"/>'
+FROM_MJCF = FROM_SDF + '<tf:mjcf xmlns:tf="urn:twinform:1"><mujoco/></tf:mjcf>'
+MADE = '<tf:made xmlns:tf="urn:twinform:1"/>'
+
+
+@pytest.mark.parametrize(("origin", "to"), [(FROM_SDF, "sdf"), (FROM_MJCF, "sdf"), (FROM_MJCF, "mjcf")])
+@pytest.mark.parametrize("mark", ["", MADE])
+def test_a_joint_that_became_planar_in_a_file_of_another_language_is_one_again(
+    origin: str, to: Language, mark: str
+) -> None:
+    """A mark says that a conversion made the joint, which was a fixed one then."""
+    marked = (
+        ROBOT.replace("floor", "world").replace("<axis", f"{mark}<axis", 1).replace("</robot>", f"{origin}</robot>")
+    )
+    robot = marked.format(axis="0 0 1")
+    there = twinform.convert(robot.encode(), to=to)
+    back = twinform.convert(there.text.encode(), to="urdf")
+    assert [(joint.name, joint.type) for joint in back.document.models[0].joints] == [
+        ("drive", "planar"),
+        ("drive_x", "continuous"),
+    ]
+    assert STALE_CARRIER not in [each.rule for each in (*there.diagnostics, *back.diagnostics)]
