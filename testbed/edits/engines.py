@@ -13,7 +13,7 @@ from typing import Any
 
 from lxml import etree
 
-from testbed.edits.edited_file import EditedFile
+from testbed.edits.edited_file import EditedFile, end
 
 _DIGITS = 6
 _SPRINGS = ("stiffness of joint ", "spring of joint ")
@@ -93,7 +93,7 @@ def _of_urdf(file: EditedFile, result: str) -> Iterator[str]:
     except UnreadableError as error:
         raise NotReadError("MuJoCo") from error
     try:
-        made = compile_mjcf(_held(without_meshes(result)))
+        made = compile_mjcf(_held(without_meshes(result), file))
     except UnreadableError as error:
         yield f"MuJoCo refuses the result: {error}"
         return
@@ -137,12 +137,15 @@ def _without_meshes_of_urdf(file: EditedFile) -> bytes:
     return etree.tostring(root)
 
 
-def _held(text: str) -> str:
-    """MJCF with its robots held at the world, as MuJoCo takes all URDF."""
+def _held(text: str, urdf: EditedFile) -> str:
+    """MJCF with its robots held at the world, as MuJoCo has all of URDF but what floats there."""
     root = etree.fromstring(text.encode())
+    floating = {end(each, "child"): each.get("name", "") for each in urdf.root.iterfind("joint[@type='floating']")}
     for joint in [*root.iterfind("worldbody/body/freejoint"), *root.iterfind("worldbody/body/joint[@type='free']")]:
         body = joint.getparent()
-        if body is not None:
+        if body is not None and (name := floating.get(body.get("name") or "")):
+            joint.set("name", name)
+        elif body is not None:
             body.remove(joint)
     for each in root.findall("keyframe"):  # it has a number for each freedom
         root.remove(each)

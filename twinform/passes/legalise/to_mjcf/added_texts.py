@@ -51,6 +51,7 @@ from twinform.passes.legalise.to_mjcf.options import SETTINGS, has_usual_setting
 from twinform.passes.legalise.to_mjcf.said_parts import without_elements
 from twinform.passes.legalise.to_mjcf.text_list import TextList
 from twinform.passes.legalise.to_mjcf.writing_context import KeptSensor, MjcfContext
+from twinform.passes.legalise.to_sdf.joint_types import FLOATING
 
 _MASKS = frozenset(f"contact/{each}" for each in MASKS)
 _OF_CONSTRAINTS = frozenset({"ball", "fixed"})
@@ -268,10 +269,12 @@ def _has_more_shapes(left: Node) -> bool:
 def _tells_of_names(left: Node) -> bool:
     """Whether what is left of a node has a note of a file, shape or sensor that is named otherwise than in MJCF.
 
-    Of a sensor that is read as another one, or as none, its name and its type say something.
+    Of a sensor that is read as another one, or as none, its name and its type say something, and of a link that floats
+    the joint by which it did so in URDF.
     """
     return any(
         find_annotation(each, SHAPE_OF) is not None
+        or (isinstance(each, Link) and find_annotation(each, FLOATING) is not None)
         or (isinstance(each, Visual | Collision | Sensor) and find_annotation(each, WRITTEN) is not None)
         or (isinstance(each, Sensor) and (find_annotation(each, PARTS) is not None or not is_rest(each)))
         for each in walk(left)

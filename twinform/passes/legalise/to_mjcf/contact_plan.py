@@ -125,12 +125,10 @@ class ContactPlan:
     def is_told_apart(self, model: str) -> bool:
         """Whether links of a model touch by their bits, and only exclusions and the model keep them from it.
 
-        What is fixed to the world does not touch itself, whatever its bits are. A model in no world goes by no name.
+        A model in no world goes by no name.
         """
         links = self._groups.get(model, ())
-        if any(self._flagged[link] for link in links) or all(self.weld(link) == WORLD for link in links):
-            return False
-        return self.touch_by_bits(links)
+        return not any(self._flagged[link] for link in links) and self.touch_by_bits(links)
 
     def could_touch_itself(self, model: str) -> bool:
         """Whether two links of a model or more have geoms that touch anything, so that their bits tell if they do."""

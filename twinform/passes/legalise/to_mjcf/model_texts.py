@@ -10,7 +10,7 @@ from typing import NamedTuple
 from twinform.ir import Frame, Model, Node, Opaque
 from twinform.ir.frames import WORLD
 from twinform.ir.scopes import SCOPE
-from twinform.passes.carriers.annotations import MADE_NAME, annotation, find_annotation, with_annotation
+from twinform.passes.carriers.annotations import MADE_NAME, annotation, find_annotation, is_annotation, with_annotation
 from twinform.passes.carriers.carriers import is_carrier, is_ours, without_parts
 from twinform.passes.carriers.mjcf_texts import SEVERAL, TREE
 from twinform.passes.carriers.partial_nodes import REST, WRITTEN, is_bare, remainder
@@ -19,6 +19,7 @@ from twinform.passes.legalise.to_mjcf.file_models import FileModels
 from twinform.passes.legalise.to_mjcf.kept_mjcf import is_shape, kept_elements
 from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext
 from twinform.passes.legalise.to_mjcf.written_file import WrittenFile
+from twinform.passes.legalise.to_sdf.joint_types import FLOATING
 
 _PARTS = {"links": (), "joints": (), "frames": (), "models": (), "pose": None}
 """The fields of a model that have texts of their own, or that the file says."""
@@ -82,7 +83,8 @@ def _touches_beside(model: Model, name: str, context: MjcfContext, *, is_still: 
     could_touch = context.contacts.could_touch_itself(name) or _keeps_what_touches(model)
     if model.self_collide and (is_still or not could_touch):
         return True
-    return False if context.contacts.is_told_apart(name) else None
+    # What stands still does not touch itself, whatever its bits are.
+    return False if not is_still and context.contacts.is_told_apart(name) else None
 
 
 def _keeps_what_touches(model: Model) -> bool:
@@ -102,5 +104,5 @@ def _frames_beside(scope: str, models: FileModels, context: MjcfContext) -> Iter
 
 
 def is_of_mjcf(part: Opaque) -> bool:
-    """Whether an untyped part says how a file of MJCF is read; what URDF has in a carrier does not."""
-    return is_ours(part) and not is_carrier(part, "urdf")
+    """Whether an untyped part says how a file of MJCF is read; what URDF has, such as a floating joint, does not."""
+    return is_ours(part) and not (is_carrier(part, "urdf") or is_annotation(part, FLOATING))

@@ -27,6 +27,7 @@ from twinform.passes.legalise.to_mjcf.friction import Friction, friction_priorit
 from twinform.passes.legalise.to_mjcf.kept_mjcf import ROOT, kept_elements
 from twinform.passes.legalise.to_mjcf.mesh_colors import Rgba, Several
 from twinform.passes.legalise.to_mjcf.rotors import Rotor, rotors_of
+from twinform.passes.legalise.to_sdf.joint_types import FLOATING
 from twinform.passes.shared.replaced_shapes import ShapeReplacer
 
 _RESERVED = {"body": frozenset({"world"})}
@@ -147,11 +148,14 @@ class MjcfContext:
         return frozenset(name for name in found if not (is_urdf and self.is_of_mjcf and self._is_moved(name)))
 
     def _is_moved(self, link: str) -> bool:
-        """Whether a joint that moves is anywhere between a link and the root of its tree."""
+        """Whether a joint that moves is anywhere between a link and the root of its tree, or the root was set free."""
         above = self.tree.joint_above(link)
-        while above is not None and above.joint.type == "fixed":
-            above = self.tree.joint_above(above.parent) if above.parent in self.tree.links else None
-        return above is not None
+        while above is not None and above.joint.type == "fixed" and above.parent in self.tree.links:
+            link = above.parent
+            above = self.tree.joint_above(link)
+        if above is None:  # SDF has no joint there
+            return find_annotation(self.tree.links[link], FLOATING) is not None
+        return above.joint.type != "fixed"
 
     @cached_property
     def closing(self) -> tuple[JointBetween, ...]:

@@ -58,7 +58,9 @@ class UrdfJoints(ModelPass):
         joints = tuple(self._joint(joint, sink) for joint in mimicking if not needs_no_joint(joint, held))
         links = model.links
         if free:
-            links = tuple(self._free(link, free[link.name], sink) if link.name in free else link for link in links)
+            links = tuple(
+                self._free(link, free[link.name], sink, held) if link.name in free else link for link in links
+            )
         model = model.copy(joints=joints, links=links)
         return self._unfold(model, sink) if any(joint.type == "planar" for joint in joints) else model
 
@@ -111,9 +113,11 @@ class UrdfJoints(ModelPass):
         pieces = [Opaque.unchecked(attribute=("type", "planar")), *(Opaque.unchecked(element=child) for child in rest)]
         return self._keep(turn, pieces, f"planar joint {joint.name!r} is a chain of joints", sink, rules.JOINT_CHAIN)
 
-    def _free(self, link: Link, joint: Joint, sink: DiagnosticSink) -> Link:
+    def _free(self, link: Link, joint: Joint, sink: DiagnosticSink, held: frozenset[str]) -> Link:
         freed = link.copy(pose=joint.pose)
-        if is_synthesized(joint):
+        # The joints that are made for a static model are fixed: an edit has let this one go.
+        is_let_go = joint.type == "floating" and link.name in held
+        if is_synthesized(joint) and not is_let_go:
             return freed
         message = f"joint {joint.name!r} leaves link {link.name!r} free, which needs no joint in SDF"
         element = to_element(joint.copy(pose=None), "joint", "urdf")
