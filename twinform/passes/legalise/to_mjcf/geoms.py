@@ -4,11 +4,11 @@ A visual is a geom that touches nothing (`contype` and `conaffinity` 0) and weig
 which viewers show; collisions are in group 3, which they hide, where the model has any visuals. Sizes are half sizes.
 """
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import NamedTuple, TypeVar
 
 from twinform.diagnostics import rules
-from twinform.ir import Collision, Element, Visual
+from twinform.ir import Collision, Element, Link, Visual
 from twinform.ir.geometry import (
     Box,
     Capsule,
@@ -27,6 +27,7 @@ from twinform.ir.transform import Transform
 from twinform.passes.carriers.annotations import SAME_GEOM, find_annotation
 from twinform.passes.legalise.changed_names import source_name
 from twinform.passes.legalise.to_mjcf.assets import height_field, mesh_asset, vector_in
+from twinform.passes.legalise.to_mjcf.contact_plan import has_shape
 from twinform.passes.legalise.to_mjcf.contacts import touch_of
 from twinform.passes.legalise.to_mjcf.elements import ENDLESS, GRID, Attributes, Value, make_element, placement
 from twinform.passes.legalise.to_mjcf.fitted_geoms import fitted_mesh, geom_size, without_mesh
@@ -63,14 +64,14 @@ def geom_elements(context: MjcfContext, body: Body) -> list[Element]:
     found: list[Element] = []
     marked = (each for each in body.link.visuals if find_annotation(each, SAME_GEOM) is not None)
     twins = {each.name: each for each in marked} if context.is_of_mjcf else {}
-    hides = any(_kept_group(each) in {"1", "2"} for each in body.link.visuals)
+    hides = _hides_what_touches(body.link, twins)
     parted = {each.name: each for each in body.link.collisions if each.name in twins}
     done, shown = set[int](), set[str]()
     for collision in body.link.collisions:
         if (shape := _shape_of(context, body, collision)) is not None:
             twin = twins.get(collision.name)
             more = touch_of(context, body, collision)
-            if twin is not None and (twin.geometry, twin.pose) == (collision.geometry, collision.pose):
+            if twin is not None and _is_one_geom(twin, collision):
                 done.add(id(twin))
                 shown.add(_kept_group(collision))
                 more = [*more, *look_of(context, body, twin, collision)]
@@ -94,6 +95,22 @@ def geom_elements(context: MjcfContext, body: Body) -> list[Element]:
     if context.unnamed:
         _name_what_is_read_otherwise(context, body, [each.get("name") or "" for each in found])
     return found
+
+
+def _is_one_geom(twin: Visual, collision: Collision) -> bool:
+    return (twin.geometry, twin.pose) == (collision.geometry, collision.pose)
+
+
+def _hides_what_touches(link: Link, twins: Mapping[str | None, Visual]) -> bool:
+    """Whether geoms in group 0 of a link are read as hidden: if others are only seen, in a group of their own.
+
+    Those go into group 0 beside a geom there that is seen and touches: see `_beside_twins`.
+    """
+    shared = [each for each in link.collisions if (twin := twins.get(each.name)) and _is_one_geom(twin, each)]
+    names = {each.name for each in shared}
+    alone = (each for each in link.visuals if twins.get(each.name) is not each or each.name not in names)
+    is_apart = any(_kept_group(each) in {"1", "2"} and has_shape(each) for each in alone)
+    return is_apart and {"", "0"}.isdisjoint(map(_kept_group, shared))
 
 
 def _name_what_is_read_otherwise(context: MjcfContext, body: Body, geoms: Sequence[str]) -> None:
