@@ -3,9 +3,9 @@
 from typing import ClassVar
 
 from twinform.diagnostics import DiagnosticSink
-from twinform.ir import Format, Joint, Model
+from twinform.ir import Joint, Model
 from twinform.ir.frames import WORLD
-from twinform.passes.carriers.annotations import annotate_synthesized, came_from
+from twinform.passes.carriers.annotations import annotate_synthesized
 from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.legalise.to_mjcf.kept_mjcf import ROOT, kept_elements
 from twinform.passes.shared.nodes import unique_name
@@ -27,7 +27,7 @@ class HoldRoot(ModelPass):
         del sink
         children = {joint.child for joint in model.joints}
         root = next((link for link in model.links if link.name not in children), None)
-        is_of_mjcf = came_from(model, Format.SDF) and any(each.name == ROOT for each in kept_elements(model))
+        is_of_mjcf = any(each.name == ROOT for each in kept_elements(model))
         if root is None or is_of_mjcf or any(joint.parent == WORLD for joint in model.joints):
             return model
         taken = {node.name for node in (*model.links, *model.joints, *model.frames)}
