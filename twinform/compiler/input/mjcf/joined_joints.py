@@ -7,11 +7,11 @@ from collections.abc import Iterable, Sequence
 from twinform.compiler.input.mjcf.remainders import holder
 from twinform.ir import Element, Joint, Link, Mimic, Model, Opaque, rewrite
 from twinform.ir.defaults import multiplier
-from twinform.passes.carriers.annotations import find_annotation
+from twinform.passes.carriers.annotations import annotation, find_annotation
 from twinform.passes.carriers.carriers import is_carrier
 from twinform.passes.carriers.joint_chains import CHAINS, TWO_AXES, metres_per_radian
 from twinform.passes.carriers.mjcf_texts import LOOP
-from twinform.passes.carriers.partial_nodes import written_names
+from twinform.passes.carriers.partial_nodes import REST, written_names
 from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements
 
 
@@ -42,6 +42,19 @@ def join_joints(model: Model, partials: Iterable[Joint]) -> tuple[Model, list[Jo
     made = tuple(kept for each in model.joints if (kept := joined.get(each.name, each)) is not None)
     model = model.copy(links=tuple(each for each in model.links if each.name not in between), joints=made)
     return rewrite(model, Mimic, lambda mimic: _led(mimic, followed.get(mimic.joint or ""))), left
+
+
+def sensors_left(model: Model, left: Iterable[Joint]) -> list[Joint]:
+    """Partial joints with the sensors of those that are several joints by now, for the last of these if it is there."""
+    joints = {each.name: each for each in model.joints}
+    last = ((each, joints.get(written_names(each)[-1])) for each in left if each.sensors)
+    return [
+        Joint.unchecked(
+            name=joint.name, type=joint.type, sensors=each.sensors, opaque=(annotation(REST),), source=each.source
+        )
+        for each, joint in last
+        if joint is not None
+    ]
 
 
 def _is_one(partial: Joint, chain: Sequence[Joint]) -> bool:

@@ -7,7 +7,7 @@ from collections.abc import Collection, Iterable, Mapping
 from typing import TypeVar
 
 from twinform.compiler.input.mjcf.carried_texts import CarriedText, nodes_of, report_stale, report_unmerged
-from twinform.compiler.input.mjcf.joined_joints import join_joints
+from twinform.compiler.input.mjcf.joined_joints import join_joints, sensors_left
 from twinform.compiler.input.mjcf.nested_back import is_nested_in, nested_back
 from twinform.compiler.input.mjcf.renamed_parts import name_in_file, with_hidden_names
 from twinform.compiler.input.mjcf.restore_contacts import kept_apart
@@ -147,10 +147,13 @@ class _PartMerging:
         closed = [(each, parent, child) for each, parent, child in found if parent is not None and child is not None]
         self._used.update(id(each) for each, _, _ in closed)
         names = {name_in_file(each): each.name for each in model.joints}
+        joints = {each.name: each for each in model.joints}
         loops = [each.copy(parent=parent, child=child) for each, parent, child in closed]
         model, left = join_joints(model, chains)
         for each in left:
             report_stale(self.sink, f"joint {each.name!r} is no joint of type {each.type} any more", each.source)
+        for each in sensors_left(model, left):
+            self._partials.setdefault((Joint, name_in_file(joints[each.name])), each)
         back = loops_back(model, loops, NamesByFile(bodies, names), self.root, self.sink)
         kept = frozenset((tag, name) for tag in ("connect", "weld") for name in back.names)
         return without_parts_of_sensors(back.model, kept)

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping
 from typing import TypeVar
 
 from twinform.compiler.input.mjcf.carried_texts import CarriedText, are_of_sdf, nodes_of, report_stale, report_unmerged
-from twinform.compiler.input.mjcf.joined_joints import join_joints
+from twinform.compiler.input.mjcf.joined_joints import join_joints, sensors_left
 from twinform.compiler.input.mjcf.merge_parts import merge_parts
 from twinform.compiler.input.mjcf.models_of_world import with_models
 from twinform.compiler.input.mjcf.names import safe_name
@@ -101,7 +101,7 @@ class _Merged:
         for each in left:
             self._stale(f"joint {each.name!r} is no joint of type {each.type} any more", each)
         gone = set(map(id, left))
-        self.joints = [each for each in self.joints if id(each) not in gone]
+        self.joints = [each for each in self.joints if id(each) not in gone] + sensors_left(model, left)
         model = with_rotors(self._attached(self._merged(self._with_loops(model))))
         model = without_assets(model, self.spellings.agreed)
         report_unmerged(self.sink, self.merging.stale)

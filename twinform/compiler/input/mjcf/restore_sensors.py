@@ -72,9 +72,11 @@ def sensors_back(
         return tuple(made for each in parts if (made := back(each, of_holder)) is not None)
 
     def moved_by(joint: Joint) -> str | None:
-        written = (elements.get(("joint", name)) for name in written_names(joint))
-        found = next((_body_around(each) for each in written if each is not None), None)
-        return found or bodies.get(joint.child or "", joint.child)
+        written = elements.get(("joint", written_names(joint)[-1]))  # the last of several moves the body
+        if written is not None:
+            return _body_around(written)
+        child = bodies.get(joint.child or "", joint.child)
+        return None if _is_moved(elements.get(("body", child or ""))) and joint.type == "fixed" else child
 
     def of_link(link: Link) -> Link:
         body = bodies[link.name]
@@ -98,6 +100,11 @@ def _body_around(element: XmlElement) -> str | None:
     """The name of the body that an element is in; None in the world, and empty where the body has none."""
     body = next(element.iterancestors("body"), None)
     return None if body is None else body.get("name") or ""
+
+
+def _is_moved(body: XmlElement | None) -> bool:
+    """Whether a body has a joint."""
+    return body is not None and any(each.tag in {"joint", "freejoint"} for each in body)
 
 
 def _part_name(line: str) -> PartName:

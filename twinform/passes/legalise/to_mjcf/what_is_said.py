@@ -50,10 +50,22 @@ class WhatIsSaid:
             of_class = self._by_class.get(node.__class__, said_by_mjcf)
             return of_class(node)
         if isinstance(left, Sensor):
-            return Left(node, _THERE)
+            return Left(self._in_its_link(node) if isinstance(node, Sensor) else node, _THERE)
         if left == node:
             return None
         return Left(left, said_by_mjcf(left) or frozenset())
+
+    def _in_its_link(self, sensor: Sensor) -> Sensor:
+        """A sensor of a file of SDF, posed in its link as its site is: joints and frames may be moved in the file."""
+        part, graph, pose = self.file.part, self.file.graph, sensor.pose
+        if self.file.context.is_of_mjcf or not isinstance(part, Link | Joint):
+            return sensor
+        if isinstance(part, Link):
+            is_posed = pose is not None and pose.relative_to
+            return sensor.copy(pose=graph.resolve(pose, part.name, part.name).to_pose()) if is_posed else sensor
+        if part.child is None or not graph.knows(part.child):
+            return sensor
+        return sensor.copy(pose=graph.resolve(pose, part.name, part.child, kind="joint").to_pose(part.child))
 
     def left_of(self, node: Node) -> Node | None:
         """What the writer of a node has left of it; flattening makes other objects of some nodes."""
