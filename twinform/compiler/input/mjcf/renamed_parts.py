@@ -36,10 +36,10 @@ def renamed_parts(model: Model, links: Sequence[Link], joints: Sequence[Joint], 
                 names[part, node.name] = old
     _name_hidden(model, joints, names)
     _name_fixed(model, joints, names)
-    taken = set(names.values())
+    taken, between = set(names.values()), _between(model)
     for part, node in free:
         if (part, node.name) not in names:
-            written = name_in_file(node)
+            written = between.get(node.name) or name_in_file(node)
             scope = written.rpartition(SCOPE)[0]
             wish = written if not scope or scope in scopes else node.name
             new = unique_name(wish, taken)
@@ -79,11 +79,28 @@ def name_in_file(node: Node) -> str:
 def _name_hidden(model: Model, partials: Sequence[Joint], names: Names) -> None:
     """Name the links between joints of one body."""
     hidden = {each.name for each in model.links if is_synthesized(each)}
-    children = {written_name(each): each.child for each in partials if each.child}
+    # Of several joints that stand for one, the last has its child.
+    children = {written_names(each)[-1]: each.child for each in partials if each.child}
     for joint in model.joints:
         old = children.get(name_in_file(joint))
         if joint.child in hidden and old is not None:
             names["link", joint.child] = old
+
+
+def _between(model: Model) -> dict[str, str]:
+    """The names of links between joints of one body, beside that of the body: those in the file know no scopes."""
+    written = {each.name: name_in_file(each) for each in model.links}
+    hidden = {each.name for each in model.links if is_synthesized(each)}
+    below = {joint.parent: joint.child or "" for joint in model.joints if joint.parent in hidden}
+    named: dict[str, str] = {}
+    for joint in model.joints:
+        if joint.child in hidden:
+            body = joint.child
+            while body in below:
+                body = below[body]
+            scope, mark, _ = written.get(body, "").rpartition(SCOPE)
+            named[joint.child] = f"{scope}{mark}{name_in_file(joint).rpartition(SCOPE)[2]}_link"
+    return named
 
 
 def _name_fixed(model: Model, partials: Sequence[Joint], names: Names) -> None:
