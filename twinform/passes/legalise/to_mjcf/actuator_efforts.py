@@ -64,7 +64,7 @@ def _with_efforts(element: Element, found: dict[str, float]) -> Element:
     children = tuple(_with_efforts(each, found) for each in element.children)
     attributes = element.attributes
     effort = found.get(element.get("name") or "") if element.name == "joint" else None
-    if effort and element.get(FORCE[1]) is None:  # no force can be limited to nothing
+    if effort:  # no force can be limited to nothing
         value = format_value((-effort, effort))
         attributes = (*attributes, (FORCE[0], "true"), (FORCE[1], value))
     return element.copy(attributes=attributes, children=children)

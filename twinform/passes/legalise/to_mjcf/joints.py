@@ -17,7 +17,7 @@ from twinform.ir.node import Vector3
 from twinform.ir.transform import Transform, rounded
 from twinform.passes.carriers.joint_chains import CHAINS, TWO_AXES, metres_per_radian
 from twinform.passes.legalise.to_mjcf.elements import Value, make_element, position
-from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_joints, with_kept_joint
+from twinform.passes.legalise.to_mjcf.kept_mjcf import FORCE, kept_joints, with_kept_joint
 from twinform.passes.legalise.to_mjcf.writing_context import Body, MjcfContext, scope_of
 
 _KINDS: dict[JointType, str] = {
@@ -65,8 +65,7 @@ def _elements(context: MjcfContext, body: Body, between: JointBetween) -> Iterat
     name = _name(context, between, _wish(context, between))
     context.written_joints[between.name] = (name,)
     context.note_made_name("joint", joint, name, f"{body.link.name}_joint")  # one that was fixed is called otherwise
-    element = _element(context, body, between, at, joint.axis, name)
-    yield with_kept_joint(element, *kept_joints(joint))
+    yield _element(context, body, between, at, joint.axis, name, *kept_joints(joint))
 
 
 def _two_axes(context: MjcfContext, body: Body, between: JointBetween, at: Transform) -> Iterator[Element]:
@@ -75,7 +74,7 @@ def _two_axes(context: MjcfContext, body: Body, between: JointBetween, at: Trans
     kept = kept_joints(joint, 2)
     names = context.written_joints[between.name] = _names(context, between, kept)
     for axis, name, each in zip((joint.axis, joint.axis2), names, kept, strict=True):
-        yield with_kept_joint(_element(context, body, between, at, axis, name), each)
+        yield _element(context, body, between, at, axis, name, each)
 
 
 def _screw(context: MjcfContext, body: Body, between: JointBetween, at: Transform) -> Iterator[Element]:
@@ -91,8 +90,8 @@ def _screw(context: MjcfContext, body: Body, between: JointBetween, at: Transfor
     slide, turn = _names(context, between, kept)
     context.written_joints[between.name], context.written_slides[between.name] = (turn,), slide
     along = Axis.unchecked(xyz=joint.axis.xyz, expressed_in=joint.axis.expressed_in) if joint.axis else None
-    yield with_kept_joint(_element(context, body, between, at, along, slide, kind="slide"), kept[0])
-    yield with_kept_joint(_element(context, body, between, at, joint.axis, turn), kept[1])
+    yield _element(context, body, between, at, along, slide, kept[0], kind="slide")
+    yield _element(context, body, between, at, joint.axis, turn, kept[1])
     message = f"screw joint {joint.name!r} is a slide and a hinge, which a constraint couples"
     context.approximate(rules.JOINT_CHAIN, message, joint.location)
     polynomial = (0.0, pitch, 0.0, 0.0, 0.0)
@@ -123,9 +122,11 @@ def _element(
     at: Transform,
     axis: Axis | None,
     name: str,
+    kept: Element | None,
+    *,
     kind: str | None = None,
 ) -> Element:
-    """One joint of MJCF, about or along one axis."""
+    """One joint of MJCF, about or along one axis, with what is `kept` of the one that it was read from."""
     joint = between.joint
     kind = kind or _KINDS[joint.type]
     attributes: list[tuple[str, Value]] = [("name", name), ("type", kind)]
@@ -138,13 +139,14 @@ def _element(
     if limit is not None and joint.type not in {"ball", "spherical"}:
         ends = _range(context, joint, limit) if joint.type != "continuous" else []
         attributes += [*ends, *_effort(context, joint, limit)]
-    if kind != "ball":
-        context.efforts[name] = _greatest_effort(limit)
     if axis is not None and axis.dynamics is not None:
         attributes += _dynamics(axis.dynamics)
     if kind != "ball" and joint.type not in TWO_AXES and (rotor := context.rotors.get(between.name)):
         attributes.append(("armature", rotor.armature))
-    return make_element("joint", attributes, (), joint.source)
+    element = with_kept_joint(make_element("joint", attributes, (), joint.source), kept)
+    if kind != "ball" and element.get(FORCE[1]) is None:
+        context.efforts[name] = _greatest_effort(limit)
+    return element
 
 
 def _direction(context: MjcfContext, body: Body, between: JointBetween, at: Transform, axis: Axis | None) -> Vector3:

@@ -79,7 +79,7 @@ class MjcfContext:
         written_joints: for each joint, by its scoped name, the names of the MJCF joints that stand for it: none for one
             that is fixed.
         written_slides: the names of the other MJCF joints that stand for screws.
-        efforts: how hard joints of MJCF may be pushed by all their actuators, by the names of these joints.
+        efforts: how hard joints of MJCF that limit no forces may be pushed by all their actuators, by their names.
         written_sites: the names of the sites of frames, by the scoped names of these.
         written_geoms: for each visual or collision, by its identity, the name of its geom.
         unnamed: kinds and names that parts have here alone, since they have none in MJCF.
