@@ -41,7 +41,7 @@ from twinform.passes.carriers.partial_nodes import WRITTEN, Left, is_bare, is_re
 from twinform.passes.legalise.changed_names import fixed_joint_name, source_name
 from twinform.passes.legalise.to_mjcf.contact_plan import MASKS
 from twinform.passes.legalise.to_mjcf.file_models import FileModels
-from twinform.passes.legalise.to_mjcf.friction import without_friction
+from twinform.passes.legalise.to_mjcf.friction import USUAL_SLIDING, without_friction
 from twinform.passes.legalise.to_mjcf.inertials import weight_of
 from twinform.passes.legalise.to_mjcf.lights import unread_light
 from twinform.passes.legalise.to_mjcf.looks import is_seen
@@ -300,7 +300,9 @@ def _as_mjcf_has_collision(collision: Collision, *, has_masks: bool) -> Collisio
     if surface is None:
         return collision
     surface = without_friction(without_elements(surface, _MASKS) if has_masks else surface)
-    return collision.copy(surface=surface.copy(mu2=None) if surface.mu2 == surface.mu else surface)
+    one, other = (USUAL_SLIDING if each is None else each for each in (surface.mu, surface.mu2))
+    # A geom is read with one coefficient for both, so that the usual second one has to be told of as well.
+    return collision.copy(surface=surface.copy(mu2=None if one == other else other))
 
 
 def _as_mjcf_has_it(joint: Joint, context: MjcfContext) -> Joint:
