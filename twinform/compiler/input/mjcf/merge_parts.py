@@ -34,6 +34,7 @@ from twinform.passes.carriers.annotations import (
 from twinform.passes.carriers.mjcf_texts import PART
 from twinform.passes.carriers.partial_nodes import WRITTEN, Merging, is_rest, written_name, written_names
 from twinform.passes.legalise.changed_names import fixed_joint_name
+from twinform.passes.legalise.to_mjcf.bodies import is_of_world
 from twinform.schemas import XmlElement
 
 AnyPart = TypeVar("AnyPart", Link, Joint, Frame, Model)
@@ -118,6 +119,8 @@ class _PartMerging:
             joints=(*(self._merged_joint(each, fixed, chains) for each in model.joints), *holds),
             frames=tuple(map(self._merged, model.frames)),
         )
+        if find_annotation(model, MADE_NAME) is None and is_of_world(whole):  # a body has its name in the file
+            whole = without_annotation(whole, MADE_NAME)
         return nested_back(whole, nested, bodies, self.sink) if nested else whole
 
     def in_document(self, document: Document) -> Document:

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from twinform.diagnostics import rules
-from twinform.ir import Element, Link
+from twinform.ir import Element, Link, Model
 from twinform.ir.frames import WORLD
 from twinform.ir.kinematic_tree import JointBetween
 from twinform.passes.carriers.annotations import MADE_NAME, WORLDBODY, find_annotation, is_synthesized
@@ -195,11 +195,15 @@ def _kept_inside(context: MjcfContext, link: Link) -> Iterator[Element]:
 
 
 def _world_link(context: MjcfContext) -> str | None:
-    """The link whose shapes are those of the world itself: of a static model without a name in MJCF."""
-    for scope, model in context.models:
-        if model.static and find_annotation(model, MADE_NAME) is not None and len(model.links) == 1 and not model.pose:
-            link = model.links[0]
-            # The world has no mass: a link that is read of its shapes has that which SDF gives to any link.
-            is_world = link.name == model.name == WORLDBODY and not link.pose and has_usual_weight(link)
-            return scope + link.name if is_world and scope + link.name in context.static_links else None
-    return None
+    """The link whose shapes are those of the world itself, if there is one."""
+    found = (scope + model.links[0].name for scope, model in context.models if is_of_world(model))
+    return next((name for name in found if name in context.static_links), None)
+
+
+def is_of_world(model: Model) -> bool:
+    """Whether a model is written as the shapes of the world itself: a static one without a name in MJCF."""
+    if not model.static or model.pose or len(model.links) != 1 or find_annotation(model, MADE_NAME) is None:
+        return False
+    link = model.links[0]
+    # The world has no mass: a link that is read of its shapes has that which SDF gives to any link.
+    return link.name == model.name == WORLDBODY and not link.pose and has_usual_weight(link)
