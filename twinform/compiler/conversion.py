@@ -17,7 +17,7 @@ from twinform.compiler.input.loading import (
 )
 from twinform.compiler.input.take_comments import comments_of
 from twinform.compiler.other_xacro import assets_of
-from twinform.compiler.output.emitting import document_tree, emit, emit_legal
+from twinform.compiler.output.emitting import document_tree, emit, emit_legal, located, written_version
 from twinform.compiler.output.source_comments import Comments
 from twinform.compiler.request import ConversionRequest
 from twinform.compiler.resolve_uris import LocalAssets
@@ -31,7 +31,7 @@ from twinform.passes import PassError, PassInstrumentation, Pipeline
 from twinform.passes.legalise.folded_parts import each_folded_once
 from twinform.passes.sdf_versions import has_early_frames
 from twinform.passes.shared.candidates import candidates, name_once_expanded, wanted_includes
-from twinform.schemas import XmlElement
+from twinform.schemas import Context, XmlElement
 
 _WITHOUT_INCLUDES = frozenset({"urdf", "mjcf"})
 """Formats in which a model is whole."""
@@ -204,6 +204,8 @@ def _convert_document(
         kept_words = mixed_words(loaded) if loaded.mixed else None
         comments = comments_of(loaded, document, request.to, request.model)
         document, text = written(changed, request, sink, instrumentation, kept=kept_words, comments=comments)
+        if text and request.to == "mjcf" and changed.format is not Format.MJCF:
+            _check_mjcf(document, sink, load_options)
     if sink.has_errors:
         raise CompileError(tuple(sink.diagnostics))
     # The ledger counts what is preserved by what is left over, so that a fate which nobody wrote
@@ -217,6 +219,16 @@ def _convert_document(
     origin = loaded.tree if loaded.content is None else loaded.content
     lines = loaded.origins.get(loaded.text_name)
     return Conversion(text, document, tuple(sink.diagnostics), ledger, origin, tuple(sink.side_files), lines)
+
+
+def _check_mjcf(document: Document, sink: DiagnosticSink, load_options: LoadOptions) -> None:
+    """Report what MuJoCo refuses in a document of MJCF that was written, such as sections that an edit has broken."""
+    from twinform.compiler.input.mjcf.normalize import check_written  # noqa: PLC0415 - few conversions need it
+
+    found = DiagnosticSink(file=sink.file)
+    context = Context(found, sink.file, Format.MJCF, written_version(document))
+    check_written(document_tree(document), context, load_options)
+    sink.extend([located(each, document) for each in found.diagnostics if each.is_error])
 
 
 def _run_remedies(

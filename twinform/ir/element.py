@@ -25,7 +25,7 @@ Attributes = tuple[Attribute, ...]
 class Element(Sourced):
     """A subtree without a typed form.
 
-    Only what stands in free content, such as `<gazebo>`, knows where it was written.
+    Only what stands in free content, such as `<gazebo>`, or has a namespace, knows where it was written.
 
     Attributes:
         name: in Clark notation, `{namespace}name`, where it has a namespace.

@@ -142,9 +142,13 @@ def keep_content(child: XmlElement, node: Data, field: str, context: Context) ->
 
 
 def keep_element(child: XmlElement, node: Data, at: str, context: Context) -> None:
-    """Keep a child with all inside it; `at` is the path from the node to the element around it."""
-    element = read_element(child, context.file, None, kept=True)
-    _keep(child, node, context, str(child.tag), (at, element, None, None))
+    """Keep a child with all inside it; `at` is the path from the node to the element around it.
+
+    Of an element with a namespace, such as one that holds what only MJCF says, each part knows where it was written.
+    """
+    tag = str(child.tag)
+    element = read_element(child, context.file, node["source"] if tag.startswith("{") else None, kept=True)
+    _keep(child, node, context, tag, (at, element, None, None))
 
 
 def keep_attribute(element: XmlElement, node: Data, at: str, context: Context, attribute: tuple[str, str]) -> None:

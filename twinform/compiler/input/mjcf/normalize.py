@@ -59,6 +59,14 @@ def check_classes(root: XmlElement, context: Context, load_options: LoadOptions)
         DefaultClasses.of(copy, findings, CopyBudget.of(load_options.limits)).merge_into(copy)
 
 
+def check_written(root: XmlElement, context: Context, load_options: LoadOptions) -> None:
+    """Report what MuJoCo refuses in a tree that was written, which is canonical but for its default classes."""
+    copy, originals = numbered_copy(root)
+    findings = ElementFindings(context, originals)
+    DefaultClasses.of(copy, findings, CopyBudget.of(load_options.limits)).merge_into(copy)
+    check_canonical(copy, findings)
+
+
 def prepare(root: XmlElement, findings: ElementFindings, attaching: Attaching) -> CompilerSettings:
     """Make all canonical in a tree but its frames and replicates, and return the settings of its compiler."""
     settings = CompilerSettings.of(root)
