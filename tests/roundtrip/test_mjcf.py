@@ -60,6 +60,7 @@ def test_a_planar_joint_comes_back_from_mjcf() -> None:
 
 _HOME = (
     "edits/loops_in_mjcf.sdf",
+    "edits/loops_that_nothing_holds.sdf",
     "edits/made_link_with_a_mass.urdf",
     "elements/dialects.urdf",
     "passes/structure/rename_shared.urdf",

@@ -1,7 +1,8 @@
 """Joints that close loops, in place of the constraints of MJCF that do: they come back while these hold the same links.
 
 A hinge that closes a loop is two points at which bodies are held together. What a carrier has of it is the whole joint,
-which goes to where these points are by now.
+which goes to where these points are by now. A joint of a type that no constraint stands for comes back while its links
+are there.
 """
 
 from collections.abc import Iterable, Mapping, Sequence
@@ -18,7 +19,7 @@ from twinform.ir.transform import Transform, rounded
 from twinform.passes.carriers.annotations import find_annotation, without_annotation
 from twinform.passes.carriers.mjcf_texts import LOOP
 from twinform.passes.carriers.partial_nodes import REST, WRITTEN, written_names
-from twinform.passes.legalise.to_mjcf.equalities import ARM, held_points
+from twinform.passes.legalise.to_mjcf.equalities import ARM, held_points, is_held_in_mjcf
 from twinform.passes.legalise.to_mjcf.kept_mjcf import KEPT
 from twinform.schemas import XmlElement
 
@@ -73,6 +74,7 @@ class _Constraints:
         self.model, self.loops, self.names = model, loops, names
         self.joints = {each.name: each for each in model.joints}
         self.elements = {each.get("name") or "": each for each in root.iterfind("equality/*")}
+        self.links = {WORLD, *(each.name for each in (*model.links, *model.frames))}
 
     def closed(self) -> list[Joint]:
         """The joints that still close loops, where these constraints hold their links together."""
@@ -92,7 +94,9 @@ class _Constraints:
         return [each for each in found if each is not None]
 
     def _hold(self, partial: Joint) -> bool:
-        """Whether all constraints that stood for a joint hold its links together."""
+        """Whether all constraints that stood for a joint hold its links together, if there were any."""
+        if not is_held_in_mjcf(partial):
+            return partial.name not in self.joints and {partial.parent, partial.child} <= self.links
         written = written_names(partial)
         ends: list[Ends] = [(each.parent, each.child) for each in self._joints_of(written)]
         if not ends:

@@ -89,6 +89,11 @@ def _points(context: MjcfContext, between: JointBetween) -> list[Vector3]:
     return held_points(between.joint, place)
 
 
+def is_held_in_mjcf(joint: Joint) -> bool:
+    """Whether constraints of MJCF stand for a joint that closes a loop."""
+    return joint.parent != joint.child and (joint.type == "fixed" or joint.type in _BALLS | _HINGES)
+
+
 def held_points(joint: Joint, place: Callable[[str | None], Transform]) -> list[Vector3]:
     """The points in the frame of the parent where both bodies have to stay together; none for other types of joints.
 
