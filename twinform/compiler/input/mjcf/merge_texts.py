@@ -49,7 +49,7 @@ from twinform.passes.legalise.to_sdf.restore_frames import RestoreFrames
 from twinform.passes.sdf_versions import change_version, lower_meaning
 from twinform.passes.sdf_versions.set_version import SetVersion
 from twinform.passes.shared.poses import POSE
-from twinform.schemas import DEFAULT_SDF_VERSION, XmlElement, parse_version, versions_of
+from twinform.schemas import DEFAULT_SDF_VERSION, XmlElement, in_order, parse_version, versions_of
 
 _BEFORE_NAMED_FRAMES = frozenset(each for each in versions_of("sdf") if parse_version(each) < (1, 7))
 """The versions of SDF in which axes and poses name no frames."""
@@ -235,6 +235,7 @@ class _Merged:
 
     def _settled(self, model: Model) -> Model | World:
         """The model with its contacts, which were computed while a robot was held by the world."""
+        model = _with_first_link(model)
         graph = FrameGraph(model)  # a link that was made for a model without any is gone
         holds = tuple(each for each in self.holds if graph.knows(each.child or ""))
         held = settle_contacts(model.copy(joints=(*holds, *model.joints)))
@@ -295,6 +296,14 @@ class _Merged:
 
     def _stale(self, message: str, node: Node) -> None:
         report_stale(self.sink, message, node.source)
+
+
+def _with_first_link(model: Model) -> Model:
+    """The model, which names its first link where that of the world's own shapes is written before it."""
+    if came_from(model, Format.URDF) or model.canonical_link or not model.links:
+        return model
+    first, (written, _) = model.links[0], in_order([(each, None) for each in model.links])[0]
+    return model if written is first else model.copy(canonical_link=first.name)
 
 
 def _roots(model: Model) -> set[str]:
