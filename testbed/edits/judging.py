@@ -8,7 +8,7 @@ edited file's robot again. Where either file is MJCF, engines say so too, which 
 """
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from enum import StrEnum
 
 from lxml import etree

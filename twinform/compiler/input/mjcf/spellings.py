@@ -35,7 +35,9 @@ from twinform.ir.transform import Transform, rounded
 from twinform.passes.carriers.absorb import CarrierError, absorb
 from twinform.passes.carriers.annotations import find_annotation, without_annotation
 from twinform.passes.carriers.mjcf_texts import AXES, LOOK_OF, SHAPE_OF, TURN, Tagged, digest_of, look_parts
+from twinform.passes.carriers.partial_nodes import written_name
 from twinform.passes.carriers.said_by_mjcf import LIMITED
+from twinform.passes.legalise.changed_names import NAME, source_name
 from twinform.passes.legalise.to_mjcf.contact_plan import MASKS
 from twinform.passes.legalise.to_mjcf.friction import friction_of, rolling_of, torsional_part, with_rolling
 from twinform.passes.legalise.to_mjcf.kept_mjcf import KEPT
@@ -73,8 +75,10 @@ class Spellings:
         made: tuple[Node, Node] = (node, partial)
         if isinstance(node, Visual) and isinstance(partial, Visual):
             made = self._with_look(*_with_shape(node, partial))
+            made = _without_name_of_file(*made)
         elif isinstance(node, Collision) and isinstance(partial, Collision):
             made = self._with_rolling(*_with_shape(node, partial))
+            made = _without_name_of_file(*made)
         elif isinstance(node, Surface) and isinstance(partial, Surface):
             made = _with_torsion(*_with_second_coefficient(node, partial))
         elif isinstance(node, Joint) and isinstance(partial, Joint):
@@ -96,7 +100,7 @@ class Spellings:
         if note is None:
             return node, partial
         partial = without_annotation(partial, LOOK_OF)
-        geom = self._geoms.get(node.name or "")
+        geom = self._geoms.get(source_name(node))
         parts = look_parts(_attributes(geom), self._asset) if geom is not None else []
         if digest_of(parts) != note.get("digest"):
             return node, partial.copy(material=None)
@@ -107,7 +111,7 @@ class Spellings:
 
     def _with_rolling(self, node: Collision, partial: Collision) -> tuple[Collision, Collision]:
         """The rolling friction of the file in place of that of the source, which has a word of Bullet for it."""
-        geom = self._geoms.get(node.name or "")
+        geom = self._geoms.get(source_name(node))
         if geom is None or partial.surface is None or friction_of(partial).rolling <= 0.0:
             return node, partial
         surface = with_rolling(partial.surface, rolling_of(_attributes(geom)))
@@ -116,6 +120,12 @@ class Spellings:
     def _asset(self, tag: str, name: str) -> list[Tagged]:
         found = self._assets.get((tag, name))
         return [] if found is None else [(str(each.tag), _attributes(each)) for each in found.iter()]
+
+
+def _without_name_of_file(node: Node, partial: Node) -> tuple[Node, Node]:
+    """The node without the name of its geom, where it gets another one than that is read as."""
+    is_renamed = written_name(partial) != getattr(partial, "name", None)
+    return (without_annotation(node, NAME) if is_renamed else node), partial
 
 
 def _with_contacts(node: Sensor, partial: Sensor) -> tuple[Sensor, Sensor]:

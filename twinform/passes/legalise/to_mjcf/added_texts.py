@@ -212,9 +212,7 @@ class AddedTexts(TextList):
             if not notes and (is_unnamed or geom in {"", source_name(self._whole(node))}):
                 return ()
             self.context.unnamed.discard(("geom", geom))
-            # `::` is no part of a name where it is read.
-            names = [each.replace("::", "__") for each in self.file.other_names(node)]
-            return (*(annotation(WRITTEN, attributes={"as": each}) for each in names), *notes)
+            return (*(annotation(WRITTEN, attributes={"as": each}) for each in self.file.other_names(node)), *notes)
         if isinstance(node, Joint) and (node.name in self.file.closing or node.type in CHAINS):
             return tuple(self._notes_of_several(node))
         if isinstance(node, Sensor) and (read := self.context.kept_sensors.get(id(node.source))) is not None:

@@ -14,7 +14,7 @@ from twinform.passes.carriers.annotations import came_from
 from twinform.passes.carriers.mjcf_texts import Tagged, tagged
 from twinform.passes.legalise.joint_notation import ExpressAxes, ResolveJointEnds
 from twinform.passes.legalise.nested_models import flat_model
-from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext, without_gearboxes
+from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext, safe_name, without_gearboxes
 from twinform.passes.legalise.to_urdf_pass import UrdfKeeper
 
 Shape = Visual | Collision
@@ -85,7 +85,8 @@ class WrittenFile:
         context = self.context
         match node:
             case Visual() | Collision():
-                names = (self.geom_name(node) or node.name or "",)
+                name = self.geom_name(node) or node.name
+                names = (safe_name(name) if name else "",)  # as the geom is called once it is read
             case Link():
                 names = (context.written_bodies.get(node.name, node.name),)
             case Joint():
