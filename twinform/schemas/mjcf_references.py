@@ -41,6 +41,25 @@ _NO_PARTS = frozenset({"default", "frame", "instance", "model"})
 _OF_OBJECT = {"objname": "objtype", "refname": "reftype"}
 """The attributes whose kind another attribute says."""
 _OBJECTS = {"xbody": "body", "key": "key"}
+SCALAR_JOINTS = frozenset({"hinge", "slide"})
+"""The types of joints that have one coordinate."""
+_TAKEN_JOINTS: Mapping[str, frozenset[str]] = {
+    "joint": SCALAR_JOINTS,  # in an equality or a tendon
+    "jointpos": SCALAR_JOINTS,
+    "jointvel": SCALAR_JOINTS,
+    "ballquat": frozenset({"ball"}),
+    "ballangvel": frozenset({"ball"}),
+}
+"""The types of joints that an element may name, if it may not name all."""
+_COORDINATES: Mapping[str, Mapping[str, int]] = {"qpos": {"free": 7, "ball": 4}, "qvel": {"free": 6, "ball": 3}}
+"""How many coordinates the position and the velocity of a joint have, if that is more than one."""
+WITH_COORDINATES = frozenset({"flexcomp", "flex", "plugin"})
+"""Elements that have coordinates of their own."""
+OF_LIMITS = {
+    "jointlimitpos": "joint", "jointlimitvel": "joint", "jointlimitfrc": "joint",
+    "tendonlimitpos": "tendon", "tendonlimitvel": "tendon", "tendonlimitfrc": "tendon",
+}  # fmt: skip
+"""The sensors that measure limits, and the kind of what has these."""
 
 
 class Reference(NamedTuple):
@@ -101,6 +120,17 @@ def naming_attributes(tag: str, attributes: Mapping[str, str]) -> Iterator[tuple
 def _is_list(tag: str, name: str) -> bool:
     """Whether an attribute that is called as a reference is a list of names."""
     return tag == "flex" and name in {"body", "node"}
+
+
+def most_coordinates(joints: Iterable[str]) -> dict[str, int]:
+    """Return how many numbers a keyframe may have for joints of these types, by its attributes."""
+    found = tuple(joints)
+    return {name: sum(counts.get(each, 1) for each in found) for name, counts in _COORDINATES.items()}
+
+
+def takes(tag: str, joint: str) -> bool:
+    """Whether an element may name a joint of a type."""
+    return joint in _TAKEN_JOINTS.get(tag, {joint})
 
 
 def names_in(elements: Iterable[XmlElement]) -> dict[str, set[str]]:

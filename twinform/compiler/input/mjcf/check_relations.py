@@ -9,6 +9,7 @@ from twinform.compiler.input.mjcf.number_lists import numbers_of
 from twinform.diagnostics import rules
 from twinform.passes.legalise.to_mjcf.kept_mjcf import TARGETS
 from twinform.schemas import XmlElement
+from twinform.schemas.mjcf_references import OF_LIMITS, SCALAR_JOINTS, WITH_COORDINATES, most_coordinates, takes
 
 _RANGES = {
     "range": "limited",
@@ -18,16 +19,7 @@ _RANGES = {
     "actuatorfrcrange": "actuatorfrclimited",
 }
 _ALWAYS_CONTROLLED = frozenset({"damper", "adhesion"})
-_SCALAR = frozenset({"hinge", "slide"})
-_OF_SCALAR_JOINTS = frozenset({"jointpos", "jointvel"})
-_OF_BALL_JOINTS = frozenset({"ballquat", "ballangvel"})
-_OF_LIMITS = {
-    "jointlimitpos": "joint", "jointlimitvel": "joint", "jointlimitfrc": "joint",
-    "tendonlimitpos": "tendon", "tendonlimitvel": "tendon", "tendonlimitfrc": "tendon",
-}  # fmt: skip
 _PAIRS = (("body1", "body2"), ("geom1", "geom2"), ("joint1", "joint2"), ("site1", "site2"), ("tendon1", "tendon2"))
-_COORDINATES = {"free": 7, "ball": 4}
-_VELOCITIES = {"free": 6, "ball": 3}
 
 
 def check_relations(root: XmlElement, named: Named, findings: ElementFindings) -> None:
@@ -35,7 +27,7 @@ def check_relations(root: XmlElement, named: Named, findings: ElementFindings) -
     joints = [*all_joints(root)]
     kinds = {name: kind for joint, kind in joints if (name := joint.get("name"))}
     for joint, kind in joints:
-        if kind in _SCALAR:  # a ball may be limited to an angle of 0
+        if kind in SCALAR_JOINTS:  # a ball may be limited to an angle of 0
             _check_ranges(joint, ("range", "actuatorfrcrange"), findings)
     checks: Mapping[str, Callable[[XmlElement], None]] = {
         "actuator": lambda each: _check_actuator(each, findings),
@@ -99,13 +91,10 @@ def _check_sensor(sensor: XmlElement, kinds: Mapping[str, str], named: Named, fi
             message = f"{name!r} of <{tag}> is negative"
             findings.report(rules.INVALID_VALUE, sensor, message, f"@{name}", found=sensor.get(name))
     kind = kinds.get(sensor.get("joint", ""))
-    if kind is not None and tag in _OF_SCALAR_JOINTS and kind not in _SCALAR:
-        _report_unfit(
-            sensor, "joint", f"<{tag}> is for hinges and slides, and this joint is of type {kind!r}", findings
-        )
-    if kind is not None and tag in _OF_BALL_JOINTS and kind != "ball":
-        _report_unfit(sensor, "joint", f"<{tag}> is for ball joints, and this joint is of type {kind!r}", findings)
-    limited = _OF_LIMITS.get(tag)
+    if kind is not None and not takes(tag, kind):
+        wanted = "ball joints" if takes(tag, "ball") else "hinges and slides"
+        _report_unfit(sensor, "joint", f"<{tag}> is for {wanted}, and this joint is of type {kind!r}", findings)
+    limited = OF_LIMITS.get(tag)
     target = named[limited].get(sensor.get(limited, "")) if limited else None
     if limited and target is not None and target.get("limited") != "true":
         _report_unfit(sensor, limited, f"<{tag}> is for a {limited} with limits, and this one has none", findings)
@@ -119,7 +108,7 @@ def _check_equality(equality: XmlElement, kinds: Mapping[str, str], findings: El
     _check_pairs(equality, findings)
     for name in ("joint1", "joint2"):
         kind = kinds.get(equality.get(name, ""))
-        if kind is not None and kind not in _SCALAR:
+        if kind is not None and not takes("joint", kind):
             message = f"only hinges and slides can be coupled, and this joint is of type {kind!r}"
             _report_unfit(equality, name, message, findings)
     if equality.tag == "connect" and "site1" not in equality.attrib and "anchor" not in equality.attrib:
@@ -150,7 +139,7 @@ def _check_tendon(tendon: XmlElement, kinds: Mapping[str, str], findings: Elemen
             _report_unfit(each, "joint", f"the joint {each.get('joint')!r} is in this tendon already", findings)
         known.add(each.get("joint"))
         kind = kinds.get(each.get("joint", ""))
-        if kind is not None and kind not in _SCALAR:
+        if kind is not None and not takes("joint", kind):
             message = f"a tendon takes hinges and slides, and this joint is of type {kind!r}"
             _report_unfit(each, "joint", message, findings)
         neighbors = [path[at] for at in (place - 1, place + 1) if 0 <= at < len(path)]
@@ -176,13 +165,9 @@ def _check_wrap(each: XmlElement, neighbors: list[XmlElement], findings: Element
 
 
 def _check_keyframe(key: XmlElement, root: XmlElement, joints: list[str], findings: ElementFindings) -> None:
-    if next(root.iter("flexcomp", "flex", "plugin"), None) is not None:
-        return  # they have coordinates of their own
-    most = {
-        "qpos": sum(_COORDINATES.get(kind, 1) for kind in joints),
-        "qvel": sum(_VELOCITIES.get(kind, 1) for kind in joints),
-    }
-    for name, count in most.items():
+    if next(root.iter(*WITH_COORDINATES), None) is not None:
+        return
+    for name, count in most_coordinates(joints).items():
         found = numbers_of(key, name)
         if found is not None and len(found) > count:
             message = f"{name!r} of <key> has {len(found)} numbers, and the model has {count}"
