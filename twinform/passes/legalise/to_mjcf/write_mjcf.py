@@ -19,7 +19,7 @@ from twinform.passes.legalise.to_mjcf.file_models import is_named_by_file
 from twinform.passes.legalise.to_mjcf.kept_mjcf import NO_SECTION, SECTIONS, SINGLE
 from twinform.passes.legalise.to_mjcf.kept_sections import add_kept_sections
 from twinform.passes.legalise.to_mjcf.lights import world_lights
-from twinform.passes.legalise.to_mjcf.made_names import remove_made_names
+from twinform.passes.legalise.to_mjcf.made_names import keep_names_read_otherwise, remove_made_names
 from twinform.passes.legalise.to_mjcf.mimics import add_gearboxes, add_mimics
 from twinform.passes.legalise.to_mjcf.options import add_options
 from twinform.passes.legalise.to_mjcf.sites import world_sites
@@ -112,6 +112,7 @@ def _write_sections(context: MjcfContext) -> None:
     if add_kept_sections(context):
         drop_dangling_parts(context)
     settle_efforts(context)
+    keep_names_read_otherwise(context)
     add_texts(context)
     remove_made_names(context)
 

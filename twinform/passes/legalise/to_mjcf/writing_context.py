@@ -83,6 +83,7 @@ class MjcfContext:
         written_sites: the names of the sites of frames, by the scoped names of these.
         written_geoms: for each visual or collision, by its identity, the name of its geom.
         unnamed: kinds and names that parts have here alone, since they have none in MJCF.
+        wishes: what these names were made of, and the names in SDF, by their kinds and names.
         former_names: the names that parts have in SDF, by their kinds and the scoped names that they had before.
         left: nodes whose untyped elements MJCF says in part, by identity, each with what MJCF leaves of it.
         kept_readings: the readings that sensors keep, each with the prefix of the names in it.
@@ -110,6 +111,7 @@ class MjcfContext:
     written_sites: dict[str, str] = field(default_factory=dict[str, str])
     written_geoms: dict[int, str] = field(default_factory=dict[int, str])
     unnamed: set[tuple[str, str]] = field(default_factory=set[tuple[str, str]])
+    wishes: dict[tuple[str, str], tuple[str, str]] = field(default_factory=dict[tuple[str, str], tuple[str, str]])
     former_names: dict[tuple[str, str], str] = field(default_factory=dict[tuple[str, str], str])
     left: dict[int, tuple[Node, Node]] = field(default_factory=dict[int, tuple[Node, Node]])
     kept_readings: list[tuple[str, Element]] = field(default_factory=list[tuple[str, Element]])
@@ -310,6 +312,7 @@ class MjcfContext:
         """
         if written is not None and self.is_of_mjcf and is_made_name(part, wish):
             self.unnamed.add((kind, written))
+            self.wishes[kind, written] = wish, getattr(part, "name", written)
 
     def name(self, kind: str, wanted: str | None, where: Location | Sourced) -> str | None:
         """A name that no other part of this kind has: the one that is wanted, or with a number behind it.
