@@ -63,7 +63,7 @@ from twinform.schemas import (
 
 _JSON = lazy_pattern(rb"(\xef\xbb\xbf)?\s*\{")
 """How a JSON document begins."""
-_DECLARATION = lazy_pattern(rb"\sxmlns[^\s=]*\s*=\s*[\"']")
+_DECLARATION = lazy_pattern(rb"xmlns[^\s=]*\s*=\s*[\"']")  # begins with what is quick to find
 """A declaration of a namespace; in the carriers of MJCF, which are XML in attributes, the quotes are references."""
 _USD = (".usd", ".usda", ".usdc", ".usdz")
 _USD_MARKS = (b"#usda", b"PXR-USDC", b"PK\3\4")

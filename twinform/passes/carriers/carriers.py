@@ -17,7 +17,7 @@ none:
 
 import re
 from collections.abc import Callable, Iterable
-from functools import partial
+from functools import cache, partial
 from typing import TypeVar
 
 from twinform.dataclass import dataclass
@@ -86,6 +86,7 @@ def pack(pieces: Iterable[Opaque], dialect: str, about: Attributes = ()) -> tupl
     return tuple([Opaque.unchecked(element=_make_carrier(piece, dialect, about)) for piece in pieces])
 
 
+@cache
 def bits_of_ours(*kinds: str) -> int:
     """The bits of the census for carriers and annotations of these kinds."""
     return bits_named(*(f"{_OURS}{kind}" for kind in kinds))

@@ -15,7 +15,7 @@ from twinform.passes.legalise.to_mjcf.friction import (
     friction_of,
     without_friction,
 )
-from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements
+from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_of_geom
 from twinform.passes.legalise.to_mjcf.writing_context import Body, MjcfContext
 
 _CONDIMS = frozenset({0, 1, USUAL_CONDIM, TORSIONAL_CONDIM, ROLLING_CONDIM})
@@ -32,7 +32,7 @@ def _bits(context: MjcfContext, body: Body, collision: Collision) -> Iterator[tu
     if context.contacts.kept_bits(body.name, collision) is not None:
         return
     bits = context.contacts.bits(body.name, collision)
-    if bits != USUAL or any(_kept(collision, name) for name in Bits._fields):  # those that an edit has replaced
+    if bits != USUAL or any(kept_of_geom(collision, name) for name in Bits._fields):  # those that an edit has replaced
         yield "contype", str(bits.contype)
         yield "conaffinity", str(bits.conaffinity)
 
@@ -49,7 +49,7 @@ def _friction(context: MjcfContext, collision: Collision) -> Iterator[tuple[str,
         context.sink.report(rules.STALE_CARRIER, message, collision.location, found=str(kept))
     if friction.condim > max(kept, USUAL_CONDIM) or kept not in _CONDIMS:
         yield "condim", str(friction.condim)
-    is_edited = bool(_kept(collision, "priority"))  # in the file of MJCF that it has been
+    is_edited = bool(kept_of_geom(collision, "priority"))  # in the file of MJCF that it has been
     if not (context.is_of_mjcf or is_edited) and (priority := context.friction_priorities[friction]):
         yield "priority", str(priority)
     if surface is not None and not context.is_of_mjcf and (left := without_friction(surface)) is not surface:
@@ -61,7 +61,7 @@ def _lengths(collision: Collision, friction: Friction) -> tuple[float, ...]:
 
     A geom of MJCF keeps the one that rolls, and the one that turns where its `condim` leaves that out.
     """
-    _, *kept = map(float, _kept(collision, "friction").split() or ("0",))
+    _, *kept = map(float, kept_of_geom(collision, "friction").split() or ("0",))
     _, torsional, rolling = (friction.sliding, *kept, *USUAL_FRICTION[1 + len(kept) :])
     if friction.condim > USUAL_CONDIM or _kept_condim(collision) > USUAL_CONDIM:
         torsional = friction.torsional
@@ -71,12 +71,7 @@ def _lengths(collision: Collision, friction: Friction) -> tuple[float, ...]:
 
 
 def _kept_condim(collision: Collision) -> int:
-    return int(_kept(collision, "condim") or "0")
-
-
-def _kept(collision: Collision, name: str) -> str:
-    """The value of an attribute that a collision keeps of its geom; nothing where it keeps none."""
-    return next((value for each in kept_elements(collision) if each.name == "geom" and (value := each.get(name))), "")
+    return int(kept_of_geom(collision, "condim") or "0")
 
 
 def add_contacts(context: MjcfContext) -> None:

@@ -31,7 +31,7 @@ from twinform.passes.legalise.to_mjcf.contact_plan import has_shape
 from twinform.passes.legalise.to_mjcf.contacts import touch_of
 from twinform.passes.legalise.to_mjcf.elements import ENDLESS, GRID, Attributes, Value, make_element, placement
 from twinform.passes.legalise.to_mjcf.fitted_geoms import fitted_mesh, geom_size, without_mesh
-from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements, with_kept
+from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_of_geom, with_kept
 from twinform.passes.legalise.to_mjcf.looks import has_look
 from twinform.passes.legalise.to_mjcf.materials import look_of, with_known_material
 from twinform.passes.legalise.to_mjcf.said_parts import without_elements
@@ -86,9 +86,9 @@ def geom_elements(context: MjcfContext, body: Body) -> list[Element]:
         if id(visual) not in done and (shape := _shape_of(context, body, visual)) is not None:
             # Beside visuals in their own group, one that touches too would count as hidden.
             group = _beside_twins(visual, shown) if done else _group(context, visual, _SEEN, hides=hides)
-            weightless = () if context.is_of_mjcf or _kept(visual, "density") else _WEIGHTLESS
+            weightless = () if context.is_of_mjcf or kept_of_geom(visual, "density") else _WEIGHTLESS
             looks = look_of(context, body, visual, other := parted.get(visual.name))
-            if other is not None and (material := _kept(other, "material")):  # only the collision was changed
+            if other is not None and (material := kept_of_geom(other, "material")):  # only the collision was changed
                 looks = [("material", material), *looks]
             more = [*_UNTOUCHED, *group, *weightless, *looks]
             found.append(_geom(context, body, visual, shape, more, seen=visual))
@@ -166,17 +166,12 @@ def _beside_twins(visual: Visual, shown: Collection[str]) -> list[tuple[str, Val
 
 
 def _kept_group(part: Visual | Collision) -> str:
-    return _kept(part, "group")
+    return kept_of_geom(part, "group")
 
 
 def _is_transparent(context: MjcfContext, part: Visual | Collision) -> bool:
-    rgba = _kept(part, "rgba") or context.colors.get(_kept(part, "material"), "")
+    rgba = kept_of_geom(part, "rgba") or context.colors.get(kept_of_geom(part, "material"), "")
     return [float(each) for each in rgba.split()[3:]] == [0.0]
-
-
-def _kept(part: Visual | Collision, name: str) -> str:
-    """The value of an attribute of the geom that a visual or collision was read from, where it keeps that."""
-    return next((value for each in kept_elements(part) if each.name == "geom" and (value := each.get(name))), "")
 
 
 def _geom(
@@ -227,23 +222,23 @@ def _solid(context: MjcfContext, body: Body, shape: Shape, part: Visual | Collis
     """The shape in MJCF; why it has none; or None where that was reported."""
     match shape:
         case Mesh():
-            name = mesh_asset(context, shape, _kept(part, "mesh"), touches=isinstance(part, Collision))
+            name = mesh_asset(context, shape, kept_of_geom(part, "mesh"), touches=isinstance(part, Collision))
             return None if name is None else Solid([("type", "mesh"), ("mesh", name)])
         case Plane():
             if body.moves:
                 return "is a plane on a link that moves, and MuJoCo takes planes on fixed bodies alone"
-            return _plane(shape, tuple(map(float, _kept(part, "size").split())))
+            return _plane(shape, tuple(map(float, kept_of_geom(part, "size").split())))
         case Heightmap():
-            name = height_field(context, shape, _kept(part, "hfield"))
+            name = height_field(context, shape, kept_of_geom(part, "hfield"))
             context.leave(shape, without_elements(shape, {"size", "pos"}))
             at = Pose.unchecked(xyz=vector_in(shape, "pos", (0.0, 0.0, 0.0)))
             return None if name is None else Solid([("type", "hfield"), ("hfield", name)], Transform.from_pose(at))
         case Box() | Sphere() | Ellipsoid() | Cylinder() | Capsule():
-            name = _kept(part, "mesh")
+            name = kept_of_geom(part, "mesh")
             if name and (mesh := fitted_mesh(part, shape, context.kept_asset("mesh", name))) is not None:
                 return Solid([("type", shape.kind)], mesh)
             size = geom_size(shape)
-            size += tuple(map(float, _kept(part, "size").split()))[len(size) :]  # more than MuJoCo needs
+            size += tuple(map(float, kept_of_geom(part, "size").split()))[len(size) :]  # more than MuJoCo needs
             if min(size) <= 0.0:
                 return "has a size of 0, which MuJoCo refuses"
             return Solid([("type", shape.kind), ("size", size)])

@@ -7,7 +7,7 @@ import math
 from typing import NamedTuple
 
 from twinform.diagnostics import Severity, rules
-from twinform.ir import Element, Inertial, Link
+from twinform.ir import Element, Link
 from twinform.ir.defaults import MASS, MOMENT
 from twinform.ir.document import Format
 from twinform.ir.solids import Symmetric, principal_axes, principal_moments, tensor, turned
@@ -59,7 +59,7 @@ def weight_of(link: Link) -> Weight:
     inertia = tensor(inertial.inertia, usual_moment)
     if has_token_mass(inertial) or is_chain_token(inertial):
         mass = 0.0
-    if _has_token_moments(inertial):
+    if inertial.inertia is not None and all(value in (0.0, TOKEN_MOMENT) for value in inertia):
         inertia = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     return Weight(mass, inertia)
 
@@ -67,13 +67,6 @@ def weight_of(link: Link) -> Weight:
 def has_usual_weight(link: Link) -> bool:
     """Whether a link has the mass and inertia that SDF gives to one that says nothing of them."""
     return weight_of(link) == weight_of(link.copy(inertial=None))
-
-
-def _has_token_moments(inertial: Inertial) -> bool:
-    if inertial.inertia is None:
-        return False
-    usual = MOMENT[Format.SDF] or 0.0  # a moment that is not written has the default of SDF; a product is zero
-    return all(value in (0.0, TOKEN_MOMENT) for value in tensor(inertial.inertia, usual))
 
 
 def inertial_elements(context: MjcfContext, body: Body) -> list[Element]:
@@ -130,20 +123,21 @@ def _possible(context: MjcfContext, link: Link, inertia: Symmetric) -> Symmetric
     least, middle, most = principal_moments(inertia) if is_full else sorted(inertia[:3])
     size = most + middle + abs(least)
     lacking = most - middle - least
-    where = link.inertial.location if link.inertial else link.location
-    help_ = "balance-inertia writes the nearest inertia that a body can have, and --for mujoco runs it"
     if least < -_CUT_OFF * size or (is_full and least <= 0.0 and lacking > _CUT_OFF * size):
+        rule = rules.INDEFINITE_INERTIA
         message = f"link {link.name!r} has an inertia with a moment of {least:g} kg m^2, which MuJoCo refuses"
-        context.sink.report(rules.INDEFINITE_INERTIA, message, where, help=help_, severity=Severity.ERROR)
-        return inertia
-    if lacking > _CUT_OFF * size:
+    elif lacking > _CUT_OFF * size:
+        rule = rules.UNBALANCED_INERTIA
         message = (
             f"link {link.name!r} has moments of inertia of {least:g}, {middle:g} and {most:g} kg m^2, and MuJoCo "
             "refuses one that is more than the sum of the others"
         )
-        context.sink.report(rules.UNBALANCED_INERTIA, message, where, help=help_, severity=Severity.ERROR)
-        return inertia
-    return _with_clear_moments(inertia, lacking, size)
+    else:
+        return _with_clear_moments(inertia, lacking, size)
+    where = link.inertial.location if link.inertial else link.location
+    help_ = "balance-inertia writes the nearest inertia that a body can have, and --for mujoco runs it"
+    context.sink.report(rule, message, where, help=help_, severity=Severity.ERROR)
+    return inertia
 
 
 def _with_clear_moments(inertia: Symmetric, lacking: float, size: float) -> Symmetric:

@@ -10,7 +10,7 @@ has been edited.
 
 from collections.abc import Sequence
 
-from twinform.ir import Element, Joint, Node
+from twinform.ir import Collision, Element, Joint, Node, Visual
 from twinform.ir.transform import rounded
 from twinform.passes.carriers.carriers import KEPT
 from twinform.schemas import format_value
@@ -50,6 +50,8 @@ KNOWN = SINGLE.union(SECTIONS, (ROOT,))
 
 def kept_elements(node: Node) -> Sequence[Element]:
     """The elements of MJCF that a node keeps."""
+    if not node.opaque:
+        return ()
     kept = [each.element for each in node.opaque if each.element is not None and each.element.name == KEPT]
     return [child for each in kept for child in each.children] if kept else ()
 
@@ -59,10 +61,16 @@ def is_shape(kept: Element) -> bool:
     return kept.name == "geom" and (bool(kept.children) or any(kept.get(name) for name in _SHAPES))
 
 
+def kept_of_geom(part: Visual | Collision, name: str) -> str:
+    """The value of an attribute of the geom that a visual or collision was read from; empty where it keeps none."""
+    for each in kept_elements(part):
+        if each.name == "geom" and (value := each.get(name)):
+            return value
+    return ""
+
+
 def with_kept(element: Element, node: Node) -> Element:
     """Return the element with what the node keeps of an element of this name."""
-    if not node.opaque:
-        return element
     for kept in kept_elements(node):
         if kept.name == element.name:
             element = merged(element, kept)
