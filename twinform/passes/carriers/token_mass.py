@@ -1,6 +1,7 @@
 """Token mass for massless links, so that the physics engines of Gazebo can move them."""
 
 from twinform.ir import Inertia, Inertial, Model
+from twinform.passes.carriers.annotations import find_annotation, without_annotation
 from twinform.passes.carriers.carriers import is_ours
 
 # Below what any comparison here looks at (1e-9), ten times what MuJoCo asks for. Of 69 corpus
@@ -31,6 +32,7 @@ TOKEN = Inertial.unchecked(
     inertia=Inertia.unchecked(ixx=TOKEN_MOMENT, ixy=0.0, ixz=0.0, iyy=TOKEN_MOMENT, iyz=0.0, izz=TOKEN_MOMENT),
 )
 CHAIN_TOKEN = TOKEN.copy(mass=CHAIN_MASS)
+_ZERO = Inertial.unchecked(mass=0.0, inertia=Inertia.unchecked(ixx=0.0, ixy=0.0, ixz=0.0, iyy=0.0, iyz=0.0, izz=0.0))
 MOMENTS = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
 
 
@@ -76,3 +78,35 @@ def is_chain_token(inertial: Inertial | None) -> bool:
 
 def _is_empty_besides(inertial: Inertial) -> bool:
     return inertial.pose is None and all(map(is_ours, inertial.opaque)) and has_token_inertia(inertial)
+
+
+def restore_inertial(inertial: Inertial) -> Inertial:
+    """The inertial without the masses and moments that an annotation says its source left out, or has as zero."""
+    found = find_annotation(inertial, UNSAID)
+    if found is None:
+        return inertial
+    names = (found.text or "").split()
+    inertial = without_annotation(inertial, UNSAID)
+    if "inertial" in names:
+        return _ZERO.copy(opaque=inertial.opaque) if is_token(inertial) else inertial
+    update: dict[str, object] = {}
+    if "mass" in names and (not inertial.mass or has_token_mass(inertial)):
+        update["mass"] = None
+    if "zero-mass" in names and has_token_mass(inertial):
+        update["mass"] = 0.0
+    if "inertia" in names and (not any(moments(inertial)) or has_token_inertia(inertial)):
+        update["inertia"] = None
+    if "zero-inertia" in names and has_token_inertia(inertial):
+        update["inertia"] = _ZERO.inertia
+    return inertial.copy(**update)
+
+
+def says_zero(inertial: Inertial) -> bool:
+    """Whether an annotation says that the mass is zero in the source, and not only left out."""
+    found = find_annotation(inertial, UNSAID)
+    return found is not None and "zero-mass" in (found.text or "").split()
+
+
+def moments(inertial: Inertial) -> list[float | None]:
+    """The moments and products of inertia as they are written; none without an inertia."""
+    return [getattr(inertial.inertia, name) for name in MOMENTS] if inertial.inertia else []

@@ -22,7 +22,7 @@ from twinform.ir.solids import (
 )
 from twinform.ir.transform import Matrix3, Transform, rounded
 from twinform.passes.carriers.annotations import with_annotation
-from twinform.passes.carriers.token_mass import TOKEN, UNSAID
+from twinform.passes.carriers.token_mass import MOMENTS, TOKEN, UNSAID
 
 DENSITY = 1000.0
 """In kg/m^3, of a geom that says nothing about its mass."""
@@ -174,7 +174,8 @@ def scale_of(settings: MassSettings, masses: Sequence[float]) -> float:
 def inertial_of(found: WrittenInertia, scale: float, keeper: RemainderKeeper) -> tuple[Inertial, tuple[Opaque, ...]]:
     """Return the inertial of a link, and what the link keeps of it beside.
 
-    A link that has no mass in MJCF gets a token, as SDF would give it 1 kg; it keeps an inertial that says so.
+    A link that has no mass in MJCF gets a token, as SDF would give it 1 kg; where MJCF says that it is zero, or is too
+    little to count, the inertial says so. Moments without a mass, which resist turning, are those of the link.
     """
     solid, piece = found.solid, found.piece
     if scale != 1.0:
@@ -183,10 +184,24 @@ def inertial_of(found: WrittenInertia, scale: float, keeper: RemainderKeeper) ->
         called = f"body {piece.name!r}" if piece.name else "this body"
         message = f"{called} has no mass; SDF needs one, which is {TOKEN.mass:g} kg"
         keeper.approximate(message, piece.location, rules.TINY_MASS)
+        if found.is_written and solid.mass == 0.0:
+            return _of_no_mass(_inertial(found, solid, keeper.rest(piece))), ()
         kept = (holder(keeper.whole(piece)),) if found.is_written else ()
         return with_annotation(TOKEN, UNSAID, "inertial"), kept
-    rest = keeper.rest(piece) if found.is_written else ()
+    return _inertial(found, solid, keeper.rest(piece) if found.is_written else ()), ()
+
+
+def _of_no_mass(inertial: Inertial) -> Inertial:
+    """Return the inertial with a token of the mass that MJCF says is zero, and of the inertia if that is zero too."""
+    words, update = ["zero-mass"], {"mass": TOKEN.mass}
+    if not any(getattr(inertial.inertia, name) for name in MOMENTS):
+        words.append("zero-inertia")
+        update["inertia"] = TOKEN.inertia
+    return with_annotation(inertial.copy(**update), UNSAID, " ".join(words))
+
+
+def _inertial(found: WrittenInertia, solid: Solid, rest: tuple[Opaque, ...]) -> Inertial:
     at = found.frame if found.is_written else Transform(translation=solid.center)
     inertia = Inertia.unchecked(**dict(zip(ELEMENTS, solid.inertia, strict=True)))
-    pose = pose_of(at, source=piece.source)
-    return Inertial.unchecked(pose=pose, mass=solid.mass, inertia=inertia, opaque=rest, source=piece.source), ()
+    pose = pose_of(at, source=found.piece.source)
+    return Inertial.unchecked(pose=pose, mass=solid.mass, inertia=inertia, opaque=rest, source=found.piece.source)

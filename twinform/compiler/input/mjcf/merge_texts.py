@@ -42,6 +42,7 @@ from twinform.passes.carriers.carriers import NAMESPACE, is_carrier
 from twinform.passes.carriers.carriers import PREFIX as TF
 from twinform.passes.carriers.mjcf_texts import ATTACHED, DOCUMENT, PREFIXES, SEVERAL
 from twinform.passes.carriers.partial_nodes import WRITTEN, Merging, is_rest, written_names
+from twinform.passes.carriers.token_mass import UNSAID, restore_inertial, says_zero
 from twinform.passes.legalise.nested_models import NameScopes, RestoreNested
 from twinform.passes.legalise.to_mjcf.kept_mjcf import KEPT
 from twinform.passes.legalise.to_mjcf.rotors import with_rotors
@@ -149,10 +150,11 @@ class _Merged:
         made = frozenset(each.name for each in model.joints if is_synthesized(each))
         joints = tuple(without_synthesized(each) if each.name in made else each for each in model.joints)
         whole = {each.name: each for each in self.links if not is_rest(each)}
+        told = {each.name for each in self.links if each.inertial and find_annotation(each.inertial, UNSAID)}
         between = tuple(
             whole[each.name].copy(pose=each.pose, source=each.source)
             if each.name in whole and is_synthesized(each)
-            else each
+            else _with_zeros(each, is_told=each.name in told)
             for each in model.links
         )
         known = {each.name for each in between}
@@ -326,6 +328,14 @@ def _without_holds(model: Model) -> Model:
         )
     )
     return replace_fields(model, joints=kept)
+
+
+def _with_zeros(link: Link, *, is_told: bool) -> Link:
+    """The link with the mass of zero that the file has, unless a carrier tells what the source had in its place."""
+    inertial = link.inertial
+    if inertial is None or not says_zero(inertial):
+        return link
+    return link.copy(inertial=without_annotation(inertial, UNSAID) if is_told else restore_inertial(inertial))
 
 
 def _is_held(model: Model) -> bool:

@@ -12,7 +12,7 @@ from twinform.ir.defaults import MASS, MOMENT
 from twinform.ir.document import Format
 from twinform.ir.solids import Symmetric, principal_axes, principal_moments, tensor, turned
 from twinform.ir.transform import Matrix3, Transform
-from twinform.passes.carriers.token_mass import TOKEN_MASS, TOKEN_MOMENT, has_token_mass, is_chain_token
+from twinform.passes.carriers.token_mass import TOKEN_MASS, TOKEN_MOMENT, has_token_mass, is_chain_token, says_zero
 from twinform.passes.legalise.to_mjcf.elements import Value, make_element, orientation, position
 from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements, with_kept
 from twinform.passes.legalise.to_mjcf.writing_context import Body, MjcfContext
@@ -78,9 +78,11 @@ def inertial_elements(context: MjcfContext, body: Body) -> list[Element]:
         context.sink.report(rules.AUTOMATIC_INERTIA, message, link.inertial.location, help=help_)
         return []
     weight = weight_of(link)
-    if weight.is_nothing:
+    says_nothing = link.inertial is not None and (link.inertial.mass == 0.0 or says_zero(link.inertial))
+    if weight.is_nothing and not says_nothing:
         return [each for each in kept_elements(link) if each.name == "inertial" and _is_massless(each)]
-    if weight.mass == 0.0 and context.is_of_mjcf:  # beside an inertia that was edited, since it is read as a token
+    # beside an inertia that was edited, since a body without any is read with a token
+    if weight.mass == 0.0 and context.is_of_mjcf and not says_nothing:
         weight = weight._replace(mass=TOKEN_MASS)
     at = context.resolve(link.inertial.pose if link.inertial else None, body)
     inertia, axes = _in_writable_axes(_possible(context, link, weight.inertia))

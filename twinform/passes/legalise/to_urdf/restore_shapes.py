@@ -3,16 +3,14 @@
 from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import DiagnosticSink
-from twinform.ir import Collision, Format, Inertia, Inertial, Link, Model, Visual, replace_fields
+from twinform.ir import Collision, Format, Inertial, Link, Model, Visual, replace_fields
 from twinform.passes.carriers.annotations import came_from, find_annotation, without_annotation
-from twinform.passes.carriers.token_mass import MOMENTS, UNSAID, has_token_inertia, has_token_mass, is_token
+from twinform.passes.carriers.token_mass import moments, restore_inertial, says_zero
 from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.legalise.changed_names import NAME
 from twinform.passes.legalise.shape_names import UNNAMED
 
 Shape = TypeVar("Shape", Visual, Collision)
-
-_NOTHING = Inertial.unchecked(mass=0.0, inertia=Inertia.unchecked().copy(**dict.fromkeys(MOMENTS, 0.0)))
 
 
 class RestoreShapes(ModelPass):
@@ -43,9 +41,9 @@ def _restore_link(link: Link, made: frozenset[str]) -> Link:
         shapes = getattr(link, field)
         usual = f"{link.name}_{field[:-1]}"
         update[field] = tuple(_restore_name(shape, made, usual) for shape in shapes)
-    inertial = _restore_inertial(link.inertial) if link.inertial else None
-    if inertial is not link.inertial or (inertial and _is_nothing(inertial)):
-        update["inertial"] = None if inertial and _is_nothing(inertial) else inertial
+    if link.inertial is not None:
+        inertial = restore_inertial(link.inertial)
+        update["inertial"] = None if _is_nothing(inertial) and not says_zero(link.inertial) else inertial
     return replace_fields(link, **update)
 
 
@@ -59,31 +57,6 @@ def _restore_name(shape: Shape, made: frozenset[str], usual: str) -> Shape:
     return shape.copy(name=found.text or "") if found.get("instead_of") == shape.name else shape
 
 
-def _restore_inertial(inertial: Inertial) -> Inertial:
-    """The inertial without the masses and moments that an annotation says URDF left out."""
-    found = find_annotation(inertial, UNSAID)
-    if found is None:
-        return inertial
-    names = (found.text or "").split()
-    inertial = without_annotation(inertial, UNSAID)
-    if "inertial" in names:
-        return _NOTHING.copy(opaque=inertial.opaque) if is_token(inertial) else inertial
-    update: dict[str, object] = {}
-    if "mass" in names and (not inertial.mass or has_token_mass(inertial)):
-        update["mass"] = None
-    if "zero-mass" in names and has_token_mass(inertial):
-        update["mass"] = 0.0
-    if "inertia" in names and (not any(_moments(inertial)) or has_token_inertia(inertial)):
-        update["inertia"] = None
-    if "zero-inertia" in names and has_token_inertia(inertial):
-        update["inertia"] = _NOTHING.inertia
-    return inertial.copy(**update)
-
-
-def _moments(inertial: Inertial) -> list[float | None]:
-    return [getattr(inertial.inertia, name) for name in MOMENTS] if inertial.inertia else []
-
-
 def _is_nothing(inertial: Inertial) -> bool:
     """Whether an inertial has zero mass, zero inertia and nothing else."""
-    return not inertial.mass and not any(_moments(inertial)) and inertial.pose is None and not inertial.opaque
+    return not inertial.mass and not any(moments(inertial)) and inertial.pose is None and not inertial.opaque
