@@ -5,6 +5,7 @@ from functools import cached_property
 from typing import Any
 
 from twinform.ir import Axis, Collision, Dynamics, Frame, Joint, Light, Limit, Link, Mimic, Node, Sensor, Visual, World
+from twinform.ir.defaults import UNLIMITED
 from twinform.ir.frames import WORLD
 from twinform.passes.carriers.annotations import is_synthesized
 from twinform.passes.carriers.partial_nodes import EXISTENCE, Left
@@ -90,7 +91,8 @@ class WhatIsSaid:
         if joint.name in self.file.closing:
             return None
         if isinstance(node, Limit):
-            return said_of_limit(node, joint)
+            said = said_of_limit(node, joint)
+            return said - _without_end(node) if self.file.is_back else said
         if isinstance(node, Axis) and joint.type not in _DIRECTED:
             return None if joint.type == "fixed" else frozenset()
         return said_by_mjcf(node)
@@ -102,6 +104,11 @@ class WhatIsSaid:
         if is_bare or joint.child in self.file.hidden:
             return frozenset({"name", "parent", "pose"})
         return said_by_mjcf(joint) if joint.name in self.file.context.written_joints or _only_holds(joint) else None
+
+
+def _without_end(limit: Limit) -> frozenset[str]:
+    """The ends of a range that are infinite: URDF writes both, and MJCF neither."""
+    return frozenset(name for name in ("lower", "upper") if abs(getattr(limit, name) or 0.0) >= UNLIMITED)
 
 
 def _only_holds(joint: Joint) -> bool:
