@@ -6,10 +6,13 @@ from dataclasses import dataclass, field
 import twinform
 from testbed.corpus.examine import fault, first_error, rules_of
 from testbed.corpus.files import CorpusFile
-from testbed.corpus.there_and_back import robots
+from testbed.corpus.there_and_back import MOST_ROBOTS
 from twinform.ir import Document
 from twinform.passes.includes.expand import has_includes
+from twinform.passes.shared.candidates import candidates
 from twinform.testing.properties import Mismatch, RoundTrip
+
+_XACRO = b"$("
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,14 +30,16 @@ class Home:
 def come_home(file: CorpusFile) -> list[Home]:
     """Convert all that a file holds to MJCF and back; no exception comes out of it.
 
-    A file with includes comes back without them, so of that each robot is a text of its own.
+    A file with includes comes back without them, so of that each of the first robots is a text of its own.
     """
     checked = twinform.check(file.path, paths=file.paths)
     document = checked.document
     if document is None or not checked.accepted:
         return []
-    wanted = robots(document) if has_includes(document) else [None]
-    return [_home(file, document, robot) for robot in wanted]
+    if not has_includes(document):
+        return [_home(file, document, None)]
+    names = [each.full_name for each in candidates(document)]
+    return [_home(file, document, name) for name in names[:MOST_ROBOTS]]
 
 
 def _home(file: CorpusFile, document: Document, robot: str | None) -> Home:
@@ -43,13 +48,19 @@ def _home(file: CorpusFile, document: Document, robot: str | None) -> Home:
         there = twinform.convert(file.path, to="mjcf", model=robot, paths=file.paths)
     except twinform.CompileError as error:
         return Home(name, refused_by=rules_of(error.diagnostics))
-    return Home(name, lost=tuple(_lost(file, document, robot, there.text)))
+    return Home(name, lost=tuple(_lost(_trip(file, document, robot), there.text)))
 
 
-def _lost(file: CorpusFile, document: Document, robot: str | None, there: str) -> Iterator[Mismatch]:
-    trip = RoundTrip(file.path.read_bytes(), document.format, document.version)
-    if has_includes(document):
-        trip = RoundTrip.of(file.path, document, model=robot, paths=file.paths)
+def _trip(file: CorpusFile, document: Document, robot: str | None) -> RoundTrip:
+    if robot is not None:
+        return RoundTrip.of(file.path, document, model=robot, paths=file.paths)
+    text = file.path.read_bytes()
+    if _XACRO in text:  # it comes back expanded
+        text = twinform.convert(file.path, to="urdf", paths=file.paths).text.encode()
+    return RoundTrip(text, document.format, document.version)
+
+
+def _lost(trip: RoundTrip, there: str) -> Iterator[Mismatch]:
     try:
         yield from trip.mismatches(trip.back(there))
     except twinform.CompileError as error:
