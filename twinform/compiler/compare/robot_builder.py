@@ -55,9 +55,11 @@ def _keep_shell(shells: list[tuple[Frame, Model]], frame: Frame, shell: Model) -
 
 
 def _without_made_root(model: Model) -> Model:
-    """Return the model without the massless link that a conversion made because URDF needs at least one link."""
+    """Return the model without the massless link that a conversion made because URDF needs one, if it holds nothing."""
     link = model.links[0] if len(model.links) == 1 else None
     if link is None or not is_synthesized(link) or link.inertial is None or link.inertial.mass != 0:
+        return model
+    if model.joints or link.visuals or link.collisions or link.sensors or link.lights:  # it is a link like others
         return model
     name = link.name
     frames = (frame.copy(attached_to=MODEL) if frame.attached_to == name else frame for frame in model.frames)
