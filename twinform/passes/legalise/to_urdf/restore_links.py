@@ -7,10 +7,10 @@ from twinform.diagnostics.rules import STALE_CARRIER
 from twinform.ir import Collision, Element, Frame, Joint, Light, Link, Model, Opaque, Pose, Sensor, Visual
 from twinform.ir.frames import MODEL, WORLD, FrameError, FrameGraph
 from twinform.passes.carriers.annotations import EXTENSION, find_annotation, without_annotation
-from twinform.passes.carriers.carriers import carry
+from twinform.passes.carriers.carriers import NAMESPACE, carry, is_carrier, unpack
 from twinform.passes.legalise.to_sdf.joint_types import FLOATING
 from twinform.passes.legalise.to_urdf_pass import ToUrdfPass, UrdfKeeper
-from twinform.passes.shared.poses import LINK
+from twinform.passes.shared.poses import FRAME, LINK
 
 Placed = TypeVar("Placed", Visual, Collision, Sensor, Light)
 
@@ -58,6 +58,8 @@ def _with_links(model: Model, keeper: UrdfKeeper) -> Model:
         own = (frame.pose or Pose.unchecked()).copy(relative_to=mount.name)
         bare = Link.unchecked(name=name, pose=own, opaque=without_annotation(frame, LINK).opaque)
         holders = [link for link in model.links if link.name == held_by[name]]
+        if not _will_be_a_frame(frame):  # which goes without saying in a URDF that was one before
+            bare = keeper.annotate(bare, FRAME)
         links.append(_with_held(bare.copy(source=frame.source), holders))
     frames = tuple(
         without_annotation(frame, LINK)
@@ -109,6 +111,12 @@ def _parent_of(mount: Frame, pairs: dict[str, Frame], graph: FrameGraph) -> str:
     if name in pairs:
         return name
     return joints.get(name) or graph.body(name, kind="link")
+
+
+def _will_be_a_frame(frame: Frame) -> bool:
+    """Whether a carrier of a frame has the annotation by which a link becomes a frame of SDF."""
+    carried = (piece.element for part in frame.opaque if is_carrier(part, "urdf") for piece in unpack(part))
+    return any(each.name == f"{{{NAMESPACE}}}{FRAME}" for each in carried if each is not None)
 
 
 def _is_in(node: Placed, names: Container[str]) -> bool:
