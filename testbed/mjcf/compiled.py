@@ -93,10 +93,13 @@ class Compiled:
         """The numbers of the joints by name; one without a name has that of its body, or none but its place."""
         found = dict[str, int]()
         for number in range(self.model.njnt):
-            body = self.model.body(int(self.model.jnt_bodyid[number])).name
-            name = self.model.joint(number).name or body or "the first joint without a name"
+            name = self.model.joint(number).name or self.body_of(number) or "the first joint without a name"
             found[name if name not in found else f"joint {number} without a name"] = number
         return found
+
+    def body_of(self, number: int) -> str:
+        """The name of the body that a joint moves."""
+        return str(self.model.body(int(self.model.jnt_bodyid[number])).name)
 
     def facts(self, number: int) -> JointFacts:
         """What a joint may do."""

@@ -44,8 +44,9 @@ def _pair(source: Compiled, made: Compiled) -> tuple[list[Pair], list[str]]:
     others = dict(made.joints)
     for name, number in source.joints.items():
         other, is_planar = others.pop(name, None), False
-        if other is None and not source.model.joint(number).name:  # and its body has none
-            other = next((others.pop(each) for each in [*others] if not made.model.joint(others[each]).name), None)
+        if other is None and not source.model.joint(number).name:
+            news = [each for each in others if each not in source.joints]
+            other = next((others.pop(each) for each in news if _may_be(source, number, made, others[each])), None)
         if other is None:
             stem, _, end = name.rpartition("_")
             other = others.pop(stem + _PLANAR.get(end, " "), None)
@@ -55,6 +56,11 @@ def _pair(source: Compiled, made: Compiled) -> tuple[list[Pair], list[str]]:
         else:
             pairs.append(Pair(name, number, other, is_planar))
     return pairs, [*missing, *(f"joint {name!r} is new" for name in others)]
+
+
+def _may_be(source: Compiled, number: int, made: Compiled, other: int) -> bool:
+    """Whether a joint without a name may be another: one without a name too, or one of its body with a made one."""
+    return not made.model.joint(other).name or source.body_of(number) == made.body_of(other)
 
 
 def _facts(pair: Pair, one: JointFacts, other: JointFacts) -> Iterator[str]:
