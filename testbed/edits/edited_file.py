@@ -53,6 +53,14 @@ class EditedFile:
         return root
 
     @cached_property
+    def carried_shapes(self) -> frozenset[str]:
+        """The names of visuals and collisions that only texts of MJCF have, since it has none like them."""
+        texts = (etree.fromstring(each.get("data") or "") for each in self.root.iter("text") if is_text_of_ours(each))
+        found = (each for text in texts for each in text.iter("visual", "collision"))
+        names = {each.get("name") or "" for each in found if each.find(f"{OURS}rest") is None}
+        return frozenset(names - {each.get("name") for each in self.root.iter("geom")})
+
+    @cached_property
     def holders(self) -> dict[str, XmlElement]:
         """The joints of URDF by the link that they hold."""
         return {end(joint, "child"): joint for joint in self.root.iterfind("joint")}

@@ -13,7 +13,7 @@ from typing import Any
 
 from lxml import etree
 
-from testbed.edits.edited_file import EditedFile, end
+from testbed.edits.edited_file import OURS, EditedFile, end
 
 _DIGITS = 6
 _SPRINGS = ("stiffness of joint ", "spring of joint ")
@@ -37,7 +37,7 @@ def differences_in_engines(file: EditedFile, result: str, back: str) -> Iterator
         raise NotReadError("MuJoCo, which is not here")
     match file.language:
         case "mjcf":
-            yield from _of_mjcf(file, back)
+            yield from _of_mjcf(file, result, back)
         case "urdf":
             yield from _of_urdf(file, result)
         case "sdf":
@@ -63,23 +63,39 @@ def _compiled(file: EditedFile) -> Any:
         raise NotReadError("MuJoCo") from error
 
 
-def _of_mjcf(file: EditedFile, back: str) -> Iterator[str]:
+def _of_mjcf(file: EditedFile, result: str, back: str) -> Iterator[str]:
     from testbed.mjcf.compiled import UnreadableError, compile_mjcf, without_meshes  # noqa: PLC0415
     from testbed.mjcf.differences import differences  # noqa: PLC0415
 
     source = _compiled(file)
     try:
-        made = compile_mjcf(without_meshes(back))
+        made = compile_mjcf(without_meshes(_without_carried(file, back)))
     except UnreadableError as error:
         yield f"MuJoCo refuses the result: {error}"
         return
     yield from differences(source, made)
-    yield from _of_looks(source, made)
+    # A model without a name in MJCF has one in URDF alone; the name of the file was that of the world around it.
+    has_name = etree.fromstring(result.encode()).find(f"{OURS}made-name") is None
+    yield from _of_looks(source, made, has_name=has_name)
 
 
-def _of_looks(one: Any, other: Any) -> Iterator[str]:
-    """Yield what differs in colors, in friction, and in how many parts there are of each kind."""
+def _without_carried(file: EditedFile, back: str) -> str:
+    """MJCF without the geoms of shapes that the edited file could not have, such as a plane of what moved before."""
+    if not file.carried_shapes:
+        return back
+    root = etree.fromstring(back.encode())
+    for geom in [*root.iter("geom")]:
+        around = geom.getparent()
+        if around is not None and geom.get("name") in file.carried_shapes:
+            around.remove(geom)
+    return etree.tostring(root, encoding="unicode")
+
+
+def _of_looks(one: Any, other: Any, *, has_name: bool) -> Iterator[str]:
+    """Yield what differs in colors, in friction, in the name, and in how many parts there are of each kind."""
     for name, of_one in _looks(one).items():
+        if name == "model" and not has_name:
+            continue
         if of_one != (of_other := _looks(other)[name]):
             yield f"{name}: only before {list(of_one - of_other)[:2]}, only after {list(of_other - of_one)[:2]}"
 
