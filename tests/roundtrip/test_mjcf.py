@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 from hypothesis import assume, given
+from lxml import etree
 
 from tests.profile import examples
 from tests.roundtrip.test_generated import text_of
@@ -72,6 +73,15 @@ def test_a_case_comes_back_from_mjcf(case: str) -> None:
     robot = (_CASES / case).read_bytes()
     trip = RoundTrip.of(robot, assert_valid(robot))
     assert [each.message for each in trip.mismatches(trip.back(convert(robot, to="mjcf").text))] == []
+
+
+def test_what_was_a_urdf_says_once_that_a_link_has_no_mass() -> None:
+    there = etree.fromstring(convert(b'<robot name="dot"><link name="point"/></robot>', to="mjcf").text.encode())
+    custom = there.find("custom")
+    assert custom is not None
+    for text in custom.findall("text[@name='twinform:model']"):  # nothing else says that it was one
+        custom.remove(text)
+    assert convert(etree.tostring(there), to="urdf").text.count("<tf:unsaid>") == 1
 
 
 def test_plugins_of_one_name_come_back_from_mjcf() -> None:

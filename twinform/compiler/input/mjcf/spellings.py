@@ -37,6 +37,7 @@ from twinform.passes.carriers.annotations import find_annotation, without_annota
 from twinform.passes.carriers.mjcf_texts import AXES, LOOK_OF, SHAPE_OF, TURN, Tagged, digest_of, look_parts
 from twinform.passes.carriers.partial_nodes import written_name
 from twinform.passes.carriers.said_by_mjcf import LIMITED
+from twinform.passes.carriers.token_mass import UNSAID
 from twinform.passes.legalise.changed_names import NAME, source_name
 from twinform.passes.legalise.to_mjcf.contact_plan import MASKS
 from twinform.passes.legalise.to_mjcf.friction import friction_of, rolling_of, torsional_part, with_rolling
@@ -91,6 +92,8 @@ class Spellings:
         elif isinstance(node, Sensor) and isinstance(partial, Sensor):
             made = _with_contacts(node, partial)
         elif isinstance(node, Inertial) and isinstance(partial, Inertial):
+            if find_annotation(partial, UNSAID) is not None:  # of a body without mass, as it is read
+                node = without_annotation(node, UNSAID)
             made = _with_axes(node, partial), without_annotation(partial, AXES)
         return cast("tuple[AnyNode, AnyNode]", made)
 
