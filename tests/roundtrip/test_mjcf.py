@@ -63,6 +63,7 @@ _HOME = (
     "edits/loops_in_mjcf.sdf",
     "edits/loops_that_nothing_holds.sdf",
     "edits/made_link_with_a_mass.urdf",
+    "edits/walls_in_mjcf.sdf",
     "elements/dialects.urdf",
     "passes/structure/rename_shared.urdf",
 )

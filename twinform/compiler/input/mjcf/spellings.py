@@ -24,6 +24,7 @@ from twinform.ir import (
     Mimic,
     Node,
     Opaque,
+    Plane,
     Pose,
     Sensor,
     Surface,
@@ -34,13 +35,14 @@ from twinform.ir.solids import tensor, turned
 from twinform.ir.transform import Transform, rounded
 from twinform.passes.carriers.absorb import CarrierError, absorb
 from twinform.passes.carriers.annotations import find_annotation, without_annotation
-from twinform.passes.carriers.mjcf_texts import AXES, LOOK_OF, SHAPE_OF, TURN, Tagged, digest_of, look_parts
+from twinform.passes.carriers.mjcf_texts import AXES, LOOK_OF, NORMAL, SHAPE_OF, TURN, Tagged, digest_of, look_parts
 from twinform.passes.carriers.partial_nodes import written_name
 from twinform.passes.carriers.said_by_mjcf import LIMITED
 from twinform.passes.carriers.token_mass import UNSAID
 from twinform.passes.legalise.changed_names import NAME, source_name
 from twinform.passes.legalise.to_mjcf.contact_plan import MASKS
 from twinform.passes.legalise.to_mjcf.friction import friction_of, rolling_of, torsional_part, with_rolling
+from twinform.passes.legalise.to_mjcf.geoms import turn_up_to
 from twinform.passes.legalise.to_mjcf.kept_mjcf import KEPT
 from twinform.passes.legalise.to_mjcf.said_parts import untyped, without_elements
 from twinform.passes.shared.poses import read_vector
@@ -160,7 +162,8 @@ def _without(element: Element, names: Collection[str]) -> Element:
 
 
 def _with_shape(node: AnyShape, partial: AnyShape) -> tuple[AnyShape, AnyShape]:
-    """The shape or URI for which a file stands, if it is that file still."""
+    """The shape or URI for which a file stands, if it is that file still; a plane that faces where it did."""
+    node, partial = _with_normal(node, partial)
     note = find_annotation(partial, SHAPE_OF)
     if note is None:
         return node, partial
@@ -177,6 +180,25 @@ def _with_shape(node: AnyShape, partial: AnyShape) -> tuple[AnyShape, AnyShape]:
         kept = kept.copy(scale=shape.scale)
     geometry = (node.geometry or Geometry.unchecked()).copy(shape=kept)
     return node.copy(geometry=geometry), partial.copy(geometry=None)
+
+
+def _with_normal(node: AnyShape, partial: AnyShape) -> tuple[AnyShape, AnyShape]:
+    """The plane with its normal in the source, turned back from there: planes of MJCF face z."""
+    note = find_annotation(partial, NORMAL)
+    shape = node.geometry.shape if node.geometry else None
+    if note is None:
+        return node, partial
+    partial = without_annotation(partial, NORMAL)
+    try:
+        normal = read_vector(note.get("xyz"))
+    except ValueError:
+        return node, partial
+    if node.geometry is None or not isinstance(shape, Plane):
+        return node, partial
+    pose = Transform.from_pose(node.pose).compose(turn_up_to(normal).inverse()).to_pose()
+    is_placed = any((*(pose.xyz or ()), *(pose.rpy or ())))
+    plane = node.geometry.copy(shape=shape.copy(normal=normal))
+    return node.copy(geometry=plane, pose=pose if is_placed else None), partial
 
 
 def _with_type(node: Joint, partial: Joint) -> Joint:

@@ -15,6 +15,7 @@ from twinform.ir import (
     Mesh,
     Node,
     Opaque,
+    Plane,
     Sensor,
     Visual,
     World,
@@ -34,6 +35,7 @@ from twinform.passes.carriers.carriers import is_ours, without_parts
 from twinform.passes.carriers.joint_chains import CHAINS
 from twinform.passes.carriers.mjcf_texts import (
     LOOP,
+    NORMAL,
     PARTS,
     SHAPE_OF,
 )
@@ -206,7 +208,7 @@ class AddedTexts(TextList):
         """What tells that a material, sensor or URI is as it was written; its part keeps its name in the file then."""
         if isinstance(node, Visual | Collision):
             look = self.spelling.look(node) if isinstance(node, Visual) and node.material is not None else ()
-            notes = (*look, *(self.spelling.on_shape(node) if _has_uri(node) else ()))
+            notes = (*look, *(self.spelling.on_shape(node) if _is_told(node) else ()))
             geom = self.file.geom_name(node) or ""
             is_unnamed = ("geom", geom) in self.context.unnamed
             if not notes and (is_unnamed or geom in {"", source_name(self._whole(node))}):
@@ -253,10 +255,10 @@ def _without_hidden(joint: Joint) -> Joint:
     return joint.copy(child=None) if (joint.child or "").startswith(f"{joint.name}_link") else joint
 
 
-def _has_uri(shape: Visual | Collision) -> bool:
-    """Whether a shape names its file by a scheme, such as `model://`, where MJCF has nothing but paths."""
+def _is_told(shape: Visual | Collision) -> bool:
+    """Whether a shape names its file by a scheme, where MJCF has paths, or is a plane that does not face z."""
     found = shape.geometry.shape if shape.geometry else None
-    return isinstance(found, Mesh) and "://" in (found.uri or "")
+    return isinstance(found, Plane) or (isinstance(found, Mesh) and "://" in (found.uri or ""))
 
 
 def _has_more_shapes(left: Node) -> bool:
@@ -265,13 +267,13 @@ def _has_more_shapes(left: Node) -> bool:
 
 
 def _tells_of_names(left: Node) -> bool:
-    """Whether what is left of a node has a note of a file, shape or sensor that is named otherwise than in MJCF.
+    """Whether what is left of a node has a note of a file, plane, shape or sensor that is named otherwise than in MJCF.
 
     Of a sensor that is read as another one, or as none, its name and its type say something, and of a link that floats
     the joint by which it did so in URDF.
     """
     return any(
-        find_annotation(each, SHAPE_OF) is not None
+        any(find_annotation(each, note) is not None for note in (SHAPE_OF, NORMAL))
         or (isinstance(each, Link) and find_annotation(each, FLOATING) is not None)
         or (isinstance(each, Visual | Collision | Sensor) and find_annotation(each, WRITTEN) is not None)
         or (isinstance(each, Sensor) and (find_annotation(each, PARTS) is not None or not is_rest(each)))

@@ -45,7 +45,7 @@ _SEEN, _TOUCHED = 2, 3
 _COLORS = frozenset({"material", "rgba"})
 _UNTOUCHED: Attributes = (("contype", "0"), ("conaffinity", "0"))
 _WEIGHTLESS: Attributes = (("density", "0"),)
-_UP: Vector3 = (0.0, 0.0, 1.0)
+UP: Vector3 = (0.0, 0.0, 1.0)
 
 
 class Solid(NamedTuple):
@@ -255,10 +255,10 @@ def _plane(shape: Plane, kept: Sequence[float]) -> Solid:
     size = (x / 2, y / 2, kept[-1] if kept else GRID)
     if tuple(2 * each or ENDLESS for each in kept[:2]) == (x, y):
         size = (kept[0], kept[1], size[-1])
-    return Solid([("type", "plane"), ("size", size)], _turn_up_to(shape.normal or _UP))
+    return Solid([("type", "plane"), ("size", size)], turn_up_to(shape.normal or UP))
 
 
-def _turn_up_to(normal: Vector3) -> Transform:
+def turn_up_to(normal: Vector3) -> Transform:
     """The shortest turn from z to a direction of any length."""
     x, y, z = normal
     length = (x * x + y * y + z * z) ** 0.5

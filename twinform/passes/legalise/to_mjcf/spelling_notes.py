@@ -20,6 +20,7 @@ from twinform.ir import (
     Model,
     Node,
     Opaque,
+    Plane,
     Pose,
     Sensor,
     Visual,
@@ -35,6 +36,7 @@ from twinform.passes.carriers.mjcf_texts import (
     AXES,
     LOOK_OF,
     LOOP,
+    NORMAL,
     PARTS,
     PREFIXES,
     SEVERAL,
@@ -46,6 +48,7 @@ from twinform.passes.carriers.mjcf_texts import (
 )
 from twinform.passes.carriers.partial_nodes import PLACE, WRITTEN
 from twinform.passes.carriers.said_by_mjcf import said_by_mjcf
+from twinform.passes.legalise.to_mjcf.geoms import UP
 from twinform.passes.legalise.to_mjcf.materials import is_kept_material
 from twinform.passes.legalise.to_mjcf.what_is_said import WhatIsSaid
 from twinform.passes.legalise.to_mjcf.written_file import Shape
@@ -149,7 +152,10 @@ class SpellingNotes:
             yield annotation(LOOK_OF, attributes={"digest": digest, "kept": "true" if is_kept else None})
 
     def on_shape(self, part: Shape) -> Iterable[Opaque]:
-        """The file that stands for a shape; where one without a geom is in its link: in URDF only the place tells."""
+        """The file that stands for a shape, or where it faces; the place in its link of one without a geom.
+
+        In URDF only the place tells which it is.
+        """
         geom = self.file.geom(part)
         if geom is None:
             link = self.file.part
@@ -165,6 +171,8 @@ class SpellingNotes:
             holder = to_element(Geometry.unchecked(shape=kept), "geometry", "sdf")
             note = annotation(SHAPE_OF, attributes={"file": file})
             yield note.copy(element=note.element and note.element.copy(children=holder.children))
+        if isinstance(shape, Plane) and shape.normal not in {None, UP}:
+            yield annotation(NORMAL, attributes={"xyz": _numbers(shape.normal or UP)})
 
     def parts(self, part: Sensor | Light) -> Iterable[Opaque]:
         """The elements that a sensor or light has become."""
