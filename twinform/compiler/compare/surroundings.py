@@ -60,11 +60,15 @@ def _read_beside_worlds(document: Document) -> WorldSurroundings:
 
 
 def _read_member(reader: PartReader, graph: FrameGraph, node: Frame | Joint) -> LinkPart:
-    """Read a frame or joint of a world, with its pose in the world."""
+    """Read a frame or joint of a world, with its pose in the world; a frame with the link that it moves with."""
     kind = "frame" if isinstance(node, Frame) else "joint"
     there = graph.pose(node.name, WORLD, kind=kind, base="world")
     opaque = tuple(part for part in node.opaque if part.name != "<pose>")  # a second one, which no reader looks at
-    return reader.part(node.copy(pose=None, opaque=opaque), kind, there)
+    update: dict[str, object] = {"pose": None, "opaque": opaque}
+    if isinstance(node, Frame):
+        body = graph.body(node.name, kind=kind)
+        update["attached_to"] = None if body == WORLD else body
+    return reader.part(node.copy(**update), kind, there)
 
 
 def _place_in_world(graph: FrameGraph, pose: Pose, holder: Transform) -> Transform:

@@ -106,8 +106,8 @@ class _Merged:
         model = with_rotors(self._attached(self._merged(self._with_loops(model))))
         model = without_assets(model, self.spellings.agreed)
         report_unmerged(self.sink, self.merging.stale)
-        is_of_world = self.world is not None or self._are_several
-        return self._in_version(self._as_document(self._restored(with_models(model) if is_of_world else model)))
+        model = with_models(model) if self._is_of_world else model
+        return self._in_version(self._as_document(self._restored(model)))
 
     def _named(self, model: Model) -> Model:
         """The model whose parts have the names that they had before they were written."""
@@ -126,7 +126,7 @@ class _Merged:
 
     def _attached(self, model: Model) -> Model:
         """The model whose frames are attached to what they were, where that still moves with the same link."""
-        graph = FrameGraph(model)
+        graph = FrameGraph(self._with_still_frames(model))
 
         def attached(frame: Frame) -> Frame:
             found = find_annotation(frame, ATTACHED)
@@ -137,13 +137,21 @@ class _Merged:
             if to is not None and not graph.knows(to):
                 self._stale(f"there is no frame {to!r} any more, to which {frame.name!r} was attached", frame)
                 return frame
-            if graph.body(to or MODEL, kind="frame" if to else "model") != frame.attached_to:
+            body = graph.body(to or MODEL, kind="frame" if to else "model")
+            if body != frame.attached_to and not (body == WORLD and frame.attached_to is None):
                 self._stale(f"frame {frame.name!r} does not move with {to or MODEL!r} any more", frame)
                 return frame
             pose = frame.pose or Pose.unchecked()
-            return frame.copy(attached_to=to, pose=pose.copy(relative_to=pose.relative_to or frame.attached_to))
+            base = pose.relative_to or frame.attached_to or MODEL
+            return frame.copy(attached_to=to, pose=pose.copy(relative_to=base))
 
         return model.copy(frames=tuple(map(attached, model.frames)))
+
+    def _with_still_frames(self, model: Model) -> Model:
+        """The model whose own frames stand still if it is a world; those of a model move with its first link."""
+        if not self._is_of_world:
+            return model
+        return model.copy(frames=tuple(each.copy(attached_to=each.attached_to or WORLD) for each in model.frames))
 
     def _merged(self, model: Model) -> Model:
         partial = next((each for each in nodes_of(self.texts, "model") if isinstance(each, Model)), None)
@@ -211,7 +219,8 @@ class _Merged:
         origin = find_annotation(model, FROM)
         version = versions_of("sdf")[-1]
         model = with_annotation(without_annotation(model, FROM), FROM, attributes={"format": "sdf", "version": version})
-        frames = RestoreFrames.unchecked(old_words=self._is_mixed and self._source_version in _BEFORE_NAMED_FRAMES)
+        is_old = self._is_mixed and self._source_version in _BEFORE_NAMED_FRAMES
+        frames = RestoreFrames.unchecked(old_words=is_old, is_world=self._is_of_world)
         steps = (NameScopes.unchecked(), frames, RestoreNested.unchecked())
         for step in steps:
             model = step.run_model(model, self.sink)
@@ -250,6 +259,11 @@ class _Merged:
         found = [part.element for part in parts if part.element and part.element.name == name]
         theirs = ((each.get("prefix") or "", each.get("uri") or "") for each in found)
         return (*((prefix, uri) for prefix, uri in theirs if uri and prefix != TF), (TF, NAMESPACE))
+
+    @property
+    def _is_of_world(self) -> bool:
+        """Whether the model stands for a world, or for several models beside each other."""
+        return self.world is not None or self._are_several
 
     @property
     def _are_several(self) -> bool:

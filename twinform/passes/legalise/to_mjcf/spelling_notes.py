@@ -52,6 +52,7 @@ from twinform.passes.legalise.to_mjcf.geoms import UP
 from twinform.passes.legalise.to_mjcf.materials import is_kept_material
 from twinform.passes.legalise.to_mjcf.what_is_said import WhatIsSaid
 from twinform.passes.legalise.to_mjcf.written_file import Shape
+from twinform.passes.shared.joint_ends import joint_pose_attributes
 from twinform.passes.shared.poses import OFFSET, POSE, offset_attributes, pose_attributes
 from twinform.schemas import format_value
 
@@ -88,7 +89,7 @@ class SpellingNotes:
     def _pose(self, node: Node) -> Iterable[Opaque]:
         """The frame and the notation of a pose."""
         pose: Pose | None = getattr(node, "pose", None)
-        attributes = pose_attributes(pose)
+        attributes = joint_pose_attributes(node) if isinstance(node, Joint) else pose_attributes(pose)
         if self.file.is_back and isinstance(node, Link | Joint):  # in URDF their frames go without saying
             attributes.pop("relative_to", None)
         return [annotation(POSE, attributes=attributes)] if attributes else ()
@@ -131,7 +132,8 @@ class SpellingNotes:
     def _attached(self, frame: Frame) -> Iterable[Opaque]:
         """What a frame is attached to, if that is not the link that its site is in."""
         body = self.file.graph.body(frame.name, kind="frame")
-        if frame.attached_to == body or (isinstance(self.context.holder, World) and frame.attached_to is None):
+        is_usual = isinstance(self.context.holder, World) and not frame.attached_to
+        if is_usual or (frame.attached_to == body and body != WORLD):
             return ()
         return [annotation(ATTACHED, attributes={"to": frame.attached_to or ""})]
 

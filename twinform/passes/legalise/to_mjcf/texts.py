@@ -5,8 +5,9 @@ Each link, joint, frame, model or world has one text, which holds the partial no
 of the source, and what stands beside the model or world that is written.
 """
 
-from twinform.ir import Frame, Light, Model, Node, Sensor, World, rewrite
+from twinform.ir import Frame, Joint, Light, Model, Node, Sensor, World, rewrite
 from twinform.ir.frames import MODEL
+from twinform.passes.carriers.annotations import with_annotation
 from twinform.passes.carriers.carriers import bits_of_ours, is_carrier
 from twinform.passes.carriers.mjcf_texts import DOCUMENT
 from twinform.passes.carriers.partial_nodes import remainder
@@ -14,6 +15,8 @@ from twinform.passes.legalise.to_mjcf.added_texts import AddedTexts
 from twinform.passes.legalise.to_mjcf.text_list import TextList
 from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext
 from twinform.passes.sdf_versions import sdf_version_read
+from twinform.passes.shared.joint_ends import joint_pose_attributes
+from twinform.passes.shared.poses import POSE
 from twinform.schemas import parse_version, versions_of
 
 _ALWAYS_THE_FIRST = frozenset(each for each in versions_of("sdf") if parse_version(each) < (1, 7))
@@ -40,9 +43,10 @@ class _AllTexts(TextList):
             self._add("model", "", self._with_canonical_link(model))
         elif document.worlds:
             self._add("world", "", holder)
-        for kind, parts in (("link", model.links), ("joint", model.joints)):
-            for each in parts:
-                self._add(kind, each.name, each)
+        for link in model.links:
+            self._add("link", link.name, link)
+        for joint in model.joints:
+            self._add("joint", joint.name, self._in_its_child(joint))
         for each in model.frames:
             self._add("frame", each.name, self._in_its_link(each))
 
@@ -72,6 +76,17 @@ class _AllTexts(TextList):
         if is_old or is_named or first in {None, model.links[0].name}:
             return model
         return model.copy(canonical_link=model.links[0].name)
+
+    def _in_its_child(self, joint: Joint) -> Joint:
+        """A joint that is posed in the frame of a placed model, which a file does not have, posed in its child."""
+        child = joint.child or ""
+        is_in_model = joint.pose is not None and joint.pose.relative_to == MODEL
+        if not is_in_model or not self.file.graph.knows(child):
+            return joint
+        pose = self.file.graph.pose(joint.name, child, kind="joint", base="link").to_pose()
+        attributes = joint_pose_attributes(joint)
+        joint = joint.copy(pose=pose)
+        return with_annotation(joint, POSE, attributes=attributes) if attributes else joint
 
     def _in_its_link(self, frame: Frame) -> Frame:
         """A frame that has no site, such as that of a nested model, posed in the link that it moves with."""

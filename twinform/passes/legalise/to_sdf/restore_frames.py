@@ -63,6 +63,8 @@ class RestoreFrames(ModelPass):
     name: ClassVar[str] = "restore-frames"
     old_words: bool = False
     """Whether the model's frame is called as before 1.7 where an annotation has that."""
+    is_world: bool = False
+    """Whether the model stands for a world, in which poses may be relative to `world`."""
 
     def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
         """The model as its SDF file has it."""
@@ -70,17 +72,20 @@ class RestoreFrames(ModelPass):
             return self._with_offsets(model, sink)
         model = _without_made_root(model)
         try:
-            made = _Restoring(model, sink, old_words=self.old_words).run()
+            made = self._restoring(model, sink).run()
             # Each annotation names a frame that was there; after an edit two of them may name each
             # other. Then the usual frames are taken for all.
             if next(FrameGraph(made).problems(), None) is None:
                 return made
             message = f"the frames in which poses of {model.name!r} were written go round in a circle by now"
             sink.report(rules.STALE_CARRIER, message, model.location, found=model.name)
-            return _Restoring(_without_frames(model), sink, old_words=self.old_words).run()
+            return self._restoring(_without_frames(model), sink).run()
         except FrameError as error:
             error.report(sink)
             return model
+
+    def _restoring(self, model: Model, sink: DiagnosticSink) -> "_Restoring":
+        return _Restoring(model, sink, old_words=self.old_words, is_world=self.is_world)
 
     def _with_offsets(self, model: Model, sink: DiagnosticSink) -> Model:
         """A model of URDF whose links have other frames in the SDF file that it came back from."""
@@ -100,6 +105,7 @@ class _Restoring:
     model: Model
     sink: DiagnosticSink
     old_words: bool = False
+    is_world: bool = False
     frames: dict[str, Base] = field(default_factory=dict[str, Base])
 
     def run(self) -> Model:
@@ -171,10 +177,16 @@ class _Restoring:
         if isinstance(node, Inertial):
             self._stale(f"an inertial is posed in its link, and cannot be in {name!r}", node)
             return None
-        if name == WORLD or not graph.knows(self._in_frame(name)[0]):
+        is_known = self._is_in_world(node) if name == WORLD else graph.knows(self._in_frame(name)[0])
+        if not is_known:
             self._stale(f"there is no frame {name!r} any more, in which a pose was written", node)
             return None
         return name
+
+    def _is_in_world(self, node: Node) -> bool:
+        """Whether something stands in a world itself, as a model in it does, and not in a model."""
+        outermost = isinstance(node, Joint | Frame) and SCOPE not in node.name.removesuffix(f"{SCOPE}{MODEL}")
+        return self.is_world and outermost
 
     def _own_pose(self, node: Link | Joint | Frame, kind: Kind, usual: str, graph: FrameGraph) -> Pose | None:
         """The pose of a node in the frame that it is to be written in."""
