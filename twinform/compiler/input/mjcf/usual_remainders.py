@@ -10,14 +10,14 @@ from twinform.passes.legalise.to_mjcf.kept_mjcf import KEPT
 AnyNode = TypeVar("AnyNode", bound=Node)
 
 # The groups of visuals and collisions, and what keeps MuJoCo from giving them a mass.
-# Assets are named after files, a plane has a grid, and the reference of a spring without stiffness means nothing.
+# Assets are named after files, and the reference of a spring without stiffness means nothing.
 _USUAL: Mapping[str, Mapping[str, frozenset[str] | None]] = {
     "compiler": {
         "angle": frozenset({"radian"}),
         "autolimits": frozenset({"false"}),
         "inertiafromgeom": frozenset({"false"}),
     },
-    "geom": {"group": frozenset({"2", "3"}), "density": frozenset({"0"}), "mesh": None, "hfield": None, "size": None},
+    "geom": {"group": frozenset({"2", "3"}), "density": frozenset({"0"}), "mesh": None, "hfield": None},
     "joint": {"springref": None},
     "mesh": {"inertia": frozenset({"shell"})},
     "site": {"group": frozenset({"4"})},
