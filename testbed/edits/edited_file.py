@@ -94,6 +94,14 @@ class EditedFile:
         return [each for each in self.root.iter(tag) if each.find(f"{OURS}{annotation}") is not None]
 
 
+def without_scenery(file: EditedFile) -> EditedFile:
+    """A file of MJCF without the shapes that belong to no body."""
+    root = etree.fromstring(file.text)
+    for geom in [*root.iterfind("worldbody/geom")]:
+        _take_out(geom)
+    return EditedFile(etree.tostring(root))
+
+
 def scoped_name(holder: XmlElement | None) -> str:
     """What a link or joint of URDF is called in SDF."""
     if holder is None:

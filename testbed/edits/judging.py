@@ -14,13 +14,14 @@ from enum import StrEnum
 from lxml import etree
 
 from testbed.edits.edit import Edit
-from testbed.edits.edited_file import EditedFile, Language
+from testbed.edits.edited_file import EditedFile, Language, without_scenery
 from testbed.edits.engines import NotReadError, differences_in_engines, is_refused_by_mujoco
 from testbed.edits.mistakes import KIND as MISTAKE
 from testbed.edits.plainly import Plainly, explained, plain_key
-from twinform.compiler import CompileError, convert
+from twinform.compiler import CompileError, Conversion, convert
 from twinform.compiler.compare import Difference, diff
 from twinform.diagnostics import Diagnostic, Severity
+from twinform.diagnostics.rules import OUTSIDE_MODEL
 
 Key = tuple[str | None, ...]
 """What differs: group, name and aspect of a `Difference`; plainly, see `plain_key`."""
@@ -82,7 +83,7 @@ def unedited(text: bytes, to: Language | None = None) -> Converted:
     made = convert(text, to=to)
     back = _back(file, made.text)
     found, plainly, when_back = _compared(file, made.text, back)
-    in_engines, not_read = _in_engines(file, made.text, back, to)
+    in_engines, not_read = _in_engines(file, made, back, to)
     return Converted(
         text,
         to,
@@ -115,7 +116,7 @@ def judge(
     try:
         back = _back(file, made.text)
         compared, read, when_back = _compared(file, made.text, back)
-        in_engines, not_read = _in_engines(file, made.text, back, before.to)
+        in_engines, not_read = _in_engines(file, made, back, before.to)
     except CompileError as error:
         if file.language == "mjcf" and is_refused_by_mujoco(file):  # it must not come back, and no trip goes on
             return _refused(error)
@@ -168,12 +169,18 @@ def _compared(file: EditedFile, result: str, back: str) -> tuple[tuple[Differenc
     return tuple(diff(one, other, carriers=True).differences if one else () for one, other in others)
 
 
-def _in_engines(file: EditedFile, result: str, back: str, to: Language) -> tuple[tuple[str, ...], str]:
-    """What differs to engines, where MJCF is one of the languages; or why none of them reads the edited file."""
+def _in_engines(file: EditedFile, made: Conversion, back: str, to: Language) -> tuple[tuple[str, ...], str]:
+    """What differs to engines, where MJCF is one of the languages; or why none of them reads the edited file.
+
+    A file of URDF holds one robot: what belongs to the world alone is none of it, if the ledger says that it is gone.
+    """
     if "mjcf" not in {file.language, to}:
         return (), ""
+    is_robot_alone = any(
+        each.rule is OUTSIDE_MODEL and each.location.path == "/mujoco/worldbody" for each in made.ledger.entries
+    )
     try:
-        return tuple(differences_in_engines(file, result, back)), ""
+        return tuple(differences_in_engines(without_scenery(file) if is_robot_alone else file, made.text, back)), ""
     except NotReadError as error:
         return (), f"the edited file is not read by {error.engine}"
 
