@@ -179,7 +179,8 @@ def _with_shape(node: AnyShape, partial: AnyShape) -> tuple[AnyShape, AnyShape]:
     if isinstance(kept, Mesh) and isinstance(shape, Mesh):
         kept = kept.copy(scale=shape.scale)
     geometry = (node.geometry or Geometry.unchecked()).copy(shape=kept)
-    return node.copy(geometry=geometry), partial.copy(geometry=None)
+    beside = partial.geometry.copy(shape=None) if partial.geometry else None
+    return node.copy(geometry=geometry), partial.copy(geometry=beside)
 
 
 def _with_normal(node: AnyShape, partial: AnyShape) -> tuple[AnyShape, AnyShape]:
