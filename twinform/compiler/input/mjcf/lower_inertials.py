@@ -22,7 +22,7 @@ from twinform.ir.solids import (
 )
 from twinform.ir.transform import Matrix3, Transform, rounded
 from twinform.passes.carriers.annotations import with_annotation
-from twinform.passes.carriers.token_mass import MOMENTS, TOKEN, UNSAID
+from twinform.passes.carriers.token_mass import TOKEN, UNSAID, moments
 
 DENSITY = 1000.0
 """In kg/m^3, of a geom that says nothing about its mass."""
@@ -193,11 +193,10 @@ def inertial_of(found: WrittenInertia, scale: float, keeper: RemainderKeeper) ->
 
 def _of_no_mass(inertial: Inertial) -> Inertial:
     """Return the inertial with a token of the mass that MJCF says is zero, and of the inertia if that is zero too."""
-    words, update = ["zero-mass"], {"mass": TOKEN.mass}
-    if not any(getattr(inertial.inertia, name) for name in MOMENTS):
-        words.append("zero-inertia")
-        update["inertia"] = TOKEN.inertia
-    return with_annotation(inertial.copy(**update), UNSAID, " ".join(words))
+    words, made = "zero-mass", inertial.copy(mass=TOKEN.mass)
+    if not any(moments(inertial)):
+        words, made = f"{words} zero-inertia", made.copy(inertia=TOKEN.inertia)
+    return with_annotation(made, UNSAID, words)
 
 
 def _inertial(found: WrittenInertia, solid: Solid, rest: tuple[Opaque, ...]) -> Inertial:

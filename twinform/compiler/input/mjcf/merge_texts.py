@@ -22,7 +22,7 @@ from twinform.compiler.input.mjcf.restore_sensors import (
     without_parts_of_sensors,
 )
 from twinform.compiler.input.mjcf.spellings import Spellings
-from twinform.compiler.input.mjcf.usual_remainders import without_assets, without_usual
+from twinform.compiler.input.mjcf.usual_remainders import without_assets, without_named
 from twinform.compiler.input.mjcf.written_models import without_stand_ins
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document, Format, Frame, Joint, Link, Model, Node, Opaque, Pose, World, replace_fields
@@ -273,7 +273,8 @@ class _Merged:
     def _as_world(self, model: Model, partial: World) -> World:
         lowered = self.lowered.worlds[0] if self.lowered.worlds else World.unchecked(name=partial.name)
         # Without the mark of what was read of MJCF: this is the world of SDF that was written.
-        lowered = without_usual(lowered.copy(lights=without_lights(lowered.lights, self.parts)))
+        lowered = lowered.copy(lights=without_lights(lowered.lights, self.parts))
+        lowered = without_named(lowered, self.spellings.agreed)
         # What is about one model of the file is about parts of several in the world, or none.
         kept = tuple(part for part in model.opaque if part.element is not None and part.element.name == KEPT)
         lowered = lowered.copy(opaque=(*lowered.opaque, *kept))

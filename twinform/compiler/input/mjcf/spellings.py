@@ -34,7 +34,7 @@ from twinform.ir.defaults import direction, multiplier
 from twinform.ir.solids import tensor, turned
 from twinform.ir.transform import Transform, rounded
 from twinform.passes.carriers.absorb import CarrierError, absorb
-from twinform.passes.carriers.annotations import find_annotation, without_annotation
+from twinform.passes.carriers.annotations import CONTINUOUS, find_annotation, without_annotation
 from twinform.passes.carriers.mjcf_texts import AXES, LOOK_OF, NORMAL, SHAPE_OF, TURN, Tagged, digest_of, look_parts
 from twinform.passes.carriers.partial_nodes import written_name
 from twinform.passes.carriers.said_by_mjcf import LIMITED
@@ -85,7 +85,7 @@ class Spellings:
         elif isinstance(node, Surface) and isinstance(partial, Surface):
             made = _with_torsion(*_with_second_coefficient(node, partial))
         elif isinstance(node, Joint) and isinstance(partial, Joint):
-            kept = without_annotation(_without_position(node, partial), TURN)
+            kept = without_annotation(_without_position(node, partial), TURN, CONTINUOUS)
             made = _with_turn(_with_type(node, partial), partial), kept
         elif isinstance(node, Mimic) and isinstance(partial, Mimic):
             made = _with_reference(node, partial)

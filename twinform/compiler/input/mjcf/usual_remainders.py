@@ -31,11 +31,11 @@ def without_usual(node: AnyNode) -> AnyNode:
     return replace_fields(node, opaque=tuple(left for part in node.opaque if (left := _left_of(part)) is not None))
 
 
-def without_assets(model: Model, names: Collection[tuple[str, str]]) -> Model:
-    """The model without usual remainders, and without those of named assets and equalities, which are written again.
-
-    A shape does not keep the name of a material of which nothing is left: what it looks like says all of it.
-    """
+def without_named(node: AnyNode, names: Collection[tuple[str, str]]) -> AnyNode:
+    """The node without usual remainders of its own, or named assets and equalities, which are written again."""
+    node = without_usual(node)
+    if not names:
+        return node
 
     def left(part: Opaque) -> Opaque | None:
         if part.element is None or not _is_kept(part):
@@ -48,9 +48,16 @@ def without_assets(model: Model, names: Collection[tuple[str, str]]) -> Model:
         )
         return _left_of(part.copy(element=part.element.copy(children=sections)))
 
-    opaque = without_usual(model).opaque
-    opaque = tuple(made for part in opaque if (made := left(part)) is not None) if names else opaque
-    kept = [each for part in opaque if part.element and _is_kept(part) for each in part.element.children]
+    return replace_fields(node, opaque=tuple(made for part in node.opaque if (made := left(part)) is not None))
+
+
+def without_assets(model: Model, names: Collection[tuple[str, str]]) -> Model:
+    """The model without usual remainders in it, and without those of named assets and equalities.
+
+    A shape does not keep the name of a material of which nothing is left: what it looks like says all of it.
+    """
+    model = without_named(model, names)
+    kept = [each for part in model.opaque if part.element and _is_kept(part) for each in part.element.children]
     known = {each.get("name") for section in kept if section.name == "asset" for each in section.children}
 
     def without_name(node: Node) -> Node:
@@ -60,7 +67,7 @@ def without_assets(model: Model, names: Collection[tuple[str, str]]) -> Model:
         made = [part if part.element is None else _without_material(part, known) for part in node.opaque]
         return replace_fields(node, opaque=tuple(part for part in made if part is not None))
 
-    return rewrite(replace_fields(model, opaque=opaque), Node, without_name, having=bits_of_ours("mjcf"))
+    return rewrite(model, Node, without_name, having=bits_of_ours("mjcf"))
 
 
 def _without_material(part: Opaque, known: Collection[str | None]) -> Opaque | None:

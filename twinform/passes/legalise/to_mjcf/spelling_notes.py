@@ -29,7 +29,7 @@ from twinform.ir import (
 from twinform.ir.frames import MODEL, WORLD
 from twinform.ir.rewrite import classes_below
 from twinform.ir.transform import Transform
-from twinform.passes.carriers.annotations import FROM, annotation
+from twinform.passes.carriers.annotations import CONTINUOUS, FROM, annotation
 from twinform.passes.carriers.carriers import NAMESPACE, to_element
 from twinform.passes.carriers.mjcf_texts import (
     ATTACHED,
@@ -117,7 +117,10 @@ class SpellingNotes:
                 yield annotation(OFFSET, attributes=offset_attributes(placed))
 
     def _on_joint(self, joint: Joint) -> Iterable[Opaque]:
-        """How the frame of a joint is turned in its body, where MJCF only has an axis; that it closes a loop."""
+        """How the frame of a joint is turned in its body, where MJCF only has an axis; that it closes a loop.
+
+        MJCF has one word for `continuous` and for `revolute` without a range.
+        """
         if joint.name in self.file.closing:
             return [annotation(LOOP)]
         if joint.type == "fixed" or joint.child is None or not self.file.graph.knows(joint.child):
@@ -127,7 +130,8 @@ class SpellingNotes:
         # Where a slide is along its axis, and beside it, changes no motion.
         is_slide = joint.type == "prismatic" and any(placed.translation)
         place = _numbers(placed.translation) if is_slide else None
-        return [annotation(TURN, attributes={"rpy": turn, "xyz": place})] if turn or place else ()
+        notes = [annotation(TURN, attributes={"rpy": turn, "xyz": place})] if turn or place else []
+        return [*notes, annotation(CONTINUOUS)] if joint.type == "continuous" else notes
 
     def _attached(self, frame: Frame) -> Iterable[Opaque]:
         """What a frame is attached to, if that is not the link that its site is in."""
