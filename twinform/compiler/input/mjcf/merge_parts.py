@@ -72,8 +72,8 @@ class _PartMerging:
         links = [each for each in nodes_of(texts, "link") if isinstance(each, Link)]
         joints = [each for each in nodes_of(texts, "joint") if isinstance(each, Joint)]
         world = next((each for each in nodes_of(texts, "world") if isinstance(each, World)), None)
-        back = sensors_back(links, joints, world, root, there, sink)
-        self._world = back.world
+        back = sensors_back(links, joints, world.lights if world else (), root, there, sink)
+        self._world = world and replace_fields(world, lights=back.lights)
         frames = (each for each in nodes_of(texts, "frame") if isinstance(each, Frame))
         self._nested = [each for each in frames if find_annotation(each, PART) is not None]
         self._merging = Merging(Spellings(root))

@@ -95,8 +95,14 @@ class _Merged:
         """The document as it was before it was written, with all edits since."""
         model = self._named(one_model(self.lowered, safe_name(self.root.get("model") or "model")))
         there = {name_in_file(each) for each in model.links}
-        back = sensors_back(self.links, self.joints, self.world, self.root, there, self.sink)
-        self.links, self.joints, self.world, self.parts = back
+        holder = self.world or self.around
+        lights = holder.lights if holder else ()
+        back = sensors_back(self.links, self.joints, lights, self.root, there, self.sink)
+        self.links, self.joints, lights, self.parts = back
+        if self.world is not None:
+            self.world = replace_fields(self.world, lights=lights)
+        elif self.around is not None:
+            self.around = replace_fields(self.around, lights=lights)
         model = without_parts_of_sensors(model, self.parts)
         model, left = join_joints(model, self.joints)
         for each in left:

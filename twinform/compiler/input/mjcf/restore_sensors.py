@@ -25,21 +25,22 @@ class SensorsBack(NamedTuple):
 
     links: list[Link]
     joints: list[Joint]
-    world: World | None
+    lights: tuple[Light, ...]
     parts: frozenset[PartName]
 
 
 def sensors_back(
     links: Iterable[Link],
     joints: Iterable[Joint],
-    world: World | None,
+    lights: Iterable[Light],
     root: XmlElement,
     there: Collection[str],
     sink: DiagnosticSink,
 ) -> SensorsBack:
     """Find the sensors whose elements are in a canonical tree as they were written; the others are as they stand.
 
-    `there` are the names of links whose bodies need not have them: what is kept of others, and of no body, is stale.
+    `lights` are those of no link, and `there` are the names of links whose bodies need not have them: what is kept of
+    others, and of no body, is stale.
 
     Those in bodies, and geoms whose contacts they tell, are still in the body of their link, or in the one that its
     joint moves.
@@ -84,11 +85,10 @@ def sensors_back(
             return replace_fields(link, sensors=(), lights=())
         return replace_fields(link, sensors=kept(link.sensors, body), lights=kept(link.lights, body))
 
-    world = replace_fields(world, lights=kept(world.lights, None)) if world else None
     return SensorsBack(
         list(map(of_link, links)),
         [replace_fields(each, sensors=kept(each.sensors, moved_by(each))) for each in joints],
-        world,
+        kept(tuple(lights), None),
         frozenset(used),
     )
 
