@@ -5,7 +5,7 @@ MuJoCo reads MJCF, and URDF as it stands; Drake reads SDF. Meshes are left out: 
 
 import tempfile
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from importlib.util import find_spec
 from itertools import combinations
 from pathlib import Path
@@ -65,7 +65,7 @@ def _compiled(file: EditedFile) -> Any:
 
 def _of_mjcf(file: EditedFile, result: str, back: str) -> Iterator[str]:
     from testbed.mjcf.compiled import UnreadableError, compile_mjcf, without_meshes  # noqa: PLC0415
-    from testbed.mjcf.differences import differences  # noqa: PLC0415
+    from testbed.mjcf.differences import differences, matched_geoms  # noqa: PLC0415
 
     source = _compiled(file)
     try:
@@ -77,6 +77,7 @@ def _of_mjcf(file: EditedFile, result: str, back: str) -> Iterator[str]:
     # A model without a name in MJCF has one in URDF alone; the name of the file was that of the world around it.
     has_name = etree.fromstring(result.encode()).find(f"{OURS}made-name") is None
     yield from _of_looks(source, made, has_name=has_name)
+    yield from _of_contacts(source.model, made.model, matched_geoms(source, made))
 
 
 def _without_carried(file: EditedFile, back: str) -> str:
@@ -184,7 +185,6 @@ def _looks(compiled: Any) -> dict[str, Counter[object]]:
         "equalities": Counter(
             (int(model.eq_type[each]), *_rounded(model.eq_data[each][:5])) for each in range(model.neq)
         ),
-        "contacts": Counter(_touching(model)),
     }
 
 
@@ -192,22 +192,39 @@ def _rounded(*arrays: Any) -> tuple[float, ...]:
     return tuple(float(number) for array in arrays for number in array.round(_DIGITS))
 
 
-def _touching(model: Any) -> Iterator[tuple[str, str]]:
-    """Yield the pairs of named geoms that may touch, by their bits, by what is excluded and by what holds what."""
+def _of_contacts(source: Any, made: Any, matched: Iterable[tuple[int, int]]) -> Iterator[str]:
+    """Yield what differs in which geoms may touch; those that have no counterpart differ by themselves."""
+    pairs = tuple(matched)
+    number = {second: first for first, second in pairs}
+    of_one = set(_touching(source, sorted(first for first, _ in pairs)))
+    touching = ((number[first], number[second]) for first, second in _touching(made, sorted(number)))
+    of_other = {(min(pair), max(pair)) for pair in touching}
+    if of_one != of_other:
+        before, after = (
+            [_geom_names(source, pair) for pair in sorted(some)[:2]] for some in (of_one - of_other, of_other - of_one)
+        )
+        yield f"contacts: only before {before}, only after {after}"
+
+
+def _geom_names(model: Any, pair: tuple[int, int]) -> tuple[str, ...]:
+    return tuple(model.geom(each).name or f"geom {each}" for each in pair)
+
+
+def _touching(model: Any, geoms: Iterable[int]) -> Iterator[tuple[int, int]]:
+    """Yield the pairs of geoms that may touch, by their bits, by what is excluded and by what holds what."""
     excluded = {(int(each) >> 16, int(each) & 0xFFFF) for each in model.exclude_signature}
-    geoms = sorted((model.geom(each).name, each) for each in range(model.ngeom) if model.geom(each).name)
-    for (one, first), (other, second) in combinations(geoms, 2):
-        bits = model.geom_contype[first] & model.geom_conaffinity[second]
-        if not bits and not model.geom_contype[second] & model.geom_conaffinity[first]:
+    types, affinities, bodies = model.geom_contype.tolist(), model.geom_conaffinity.tolist(), model.geom_bodyid.tolist()
+    for first, second in combinations(geoms, 2):
+        if not types[first] & affinities[second] and not types[second] & affinities[first]:
             continue
-        bodies = int(model.geom_bodyid[first]), int(model.geom_bodyid[second])
-        if model.body_weldid[bodies[0]] == model.body_weldid[bodies[1]] or excluded & {bodies, bodies[::-1]}:
+        one, other = bodies[first], bodies[second]
+        if model.body_weldid[one] == model.body_weldid[other] or excluded & {(one, other), (other, one)}:
             continue
-        held = [_held_as_one(model, each) for each in bodies]
+        held = [_held_as_one(model, each) for each in (one, other)]
         above = [_held_as_one(model, int(model.body_parentid[each])) for each in held]
         # URDF and SDF say nothing of contacts between two links that a joint connects
-        if 0 in bodies or (held[0] != above[1] and held[1] != above[0]):
-            yield one, other
+        if 0 in {one, other} or (held[0] != above[1] and held[1] != above[0]):
+            yield first, second
 
 
 def _held_as_one(model: Any, body: int) -> int:

@@ -131,13 +131,7 @@ def _motions(source: Compiled, made: Compiled, pairs: list[Pair], draw: np.rando
     order = _velocity_order(source, made, pairs)
     geoms: list[tuple[int, int]] | None = None
     for _ in range(POSES):
-        here, there = source.model.qpos0.copy(), made.model.qpos0.copy()
-        for pair in pairs:
-            _draw(source, made, pair, here, there, draw)
-        speed = speeds(draw, source.model.nv)
-        theirs = np.zeros(made.model.nv)
-        theirs[order] = speed
-        one, other = source.at(here, speed), made.at(there, theirs)
+        one, other = _at_random(source, made, pairs, order, draw)
         compare(found, "the mass matrix", one.mass, other.mass[np.ix_(order, order)])
         compare(found, "the bias forces", one.bias, other.bias[order])
         _compare_poses(found, "body", one.bodies, other.bodies)
@@ -147,6 +141,28 @@ def _motions(source: Compiled, made: Compiled, pairs: list[Pair], draw: np.rando
         for first, second in geoms:
             compare(found, f"the pose of geom {first}", one.geoms[first], other.geoms[second])
     return list(found.values())
+
+
+def _at_random(
+    source: Compiled, made: Compiled, pairs: list[Pair], order: Array, draw: np.random.Generator
+) -> tuple[Motion, Motion]:
+    """How both move at one random position with random velocities."""
+    here, there = source.model.qpos0.copy(), made.model.qpos0.copy()
+    for pair in pairs:
+        _draw(source, made, pair, here, there, draw)
+    speed = speeds(draw, source.model.nv)
+    theirs = np.zeros(made.model.nv)
+    theirs[order] = speed
+    return source.at(here, speed), made.at(there, theirs)
+
+
+def matched_geoms(source: Compiled, made: Compiled, seed: int = 1) -> list[tuple[int, int]]:
+    """The numbers of geoms of both models that are one, wherever these move; meshes are none of them."""
+    pairs, missing = _pair(source, made)
+    if missing:
+        return []
+    at = _at_random(source, made, pairs, _velocity_order(source, made, pairs), np.random.default_rng(seed))
+    return _match_geoms(source, made, *at)[0]
 
 
 def speeds(draw: np.random.Generator, count: int) -> Array:
