@@ -22,8 +22,9 @@ from twinform.lazy import lazy_pattern
 from twinform.passes.carriers.annotations import MIMIC, SYNTHESIZED
 from twinform.passes.carriers.carriers import NAMESPACE
 from twinform.passes.carriers.joint_chains import CHAIN, PART
+from twinform.passes.carriers.old_names import NAME
 from twinform.passes.carriers.token_mass import TOKEN_MASS, UNSAID
-from twinform.passes.legalise.changed_names import NAME, SCOPED_NAME
+from twinform.passes.legalise.changed_names import SCOPED_NAME
 from twinform.passes.legalise.world_link import OF_WORLD
 from twinform.passes.shared.joint_ends import GEARED
 from twinform.passes.shared.link_shapes import COMPUTED_MASS

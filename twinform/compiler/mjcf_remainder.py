@@ -26,8 +26,8 @@ from twinform.ir import (
 )
 from twinform.ir.transform import Transform
 from twinform.passes.carriers.annotations import MADE_NAME, find_annotation
+from twinform.passes.carriers.old_names import NAME
 from twinform.passes.framework.pass_base import Pass
-from twinform.passes.legalise.changed_names import NAME
 from twinform.passes.legalise.to_mjcf.elements import make_element, placement
 from twinform.passes.legalise.to_mjcf.kept_mjcf import KEPT, with_kept
 from twinform.schemas import XmlElement, format_value

@@ -28,7 +28,7 @@ from twinform.ir.visual import Collision, Visual
 from twinform.passes.carriers.absorb import definition_of
 from twinform.passes.carriers.annotations import find_annotation
 from twinform.passes.carriers.carriers import from_xml
-from twinform.passes.legalise.changed_names import NAME
+from twinform.passes.carriers.old_names import NAME
 from twinform.passes.legalise.to_sdf.joint_types import FLOATING
 from twinform.passes.legalise.urdf_pieces import OF_AN_AXIS, WITHOUT_AXIS, joints_of
 from twinform.passes.sdf_versions.name_the_nameless import plugin_stem

@@ -14,30 +14,22 @@ An annotation has the name that it was made for: where that was edited since, th
 """
 
 from collections.abc import Collection, Iterable, Iterator
-from typing import Any, ClassVar, TypeVar
+from typing import ClassVar, TypeVar
 
 from twinform.diagnostics import DiagnosticSink, rules
 from twinform.diagnostics.rules import STALE_CARRIER
 from twinform.ir import (
-    Collision,
     Color,
-    Element,
     Format,
     Frame,
     Joint,
-    Light,
     Link,
     Model,
-    Opaque,
-    Sensor,
     Visual,
-    World,
     map_references,
 )
 from twinform.ir.node import NOT_CONTENT
 from twinform.passes.carriers.annotations import (
-    AnyNode,
-    annotation,
     came_from,
     find_annotation,
     with_annotation,
@@ -45,6 +37,7 @@ from twinform.passes.carriers.annotations import (
     wrote_scopes,
 )
 from twinform.passes.carriers.carriers import Keeper
+from twinform.passes.carriers.old_names import NAME, annotated_name, with_old_name
 from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.legalise.to_urdf_pass import ToUrdfPass, UrdfKeeper
 from twinform.passes.shared.nodes import reserve_name
@@ -97,8 +90,6 @@ def seen_by_gazebo(color: Color, texture: str | None) -> str:
     return " and ".join(filter(None, (bare, brighter)))
 
 
-NAME = "name"
-"""The annotation on a link, joint, frame or shape of SDF with the name that it has in URDF."""
 SCOPED_NAME = "scoped-name"
 """The annotation on a link, joint or frame of URDF with the name, such as `arm::hand`, that it has in SDF."""
 Names = dict[tuple[Part, str], str]
@@ -205,20 +196,9 @@ def _annotated(model: Model, kind: str) -> Iterator[tuple[Part, Link | Joint | F
     for part, field in _FIELDS.items():
         for node in getattr(model, field):
             found = find_annotation(node, kind)
-            old = _old_name(found) if found is not None else ""
+            old = annotated_name(found) if found is not None else ""
             if found is not None and old:
                 yield part, node, found.get("instead_of") or "", old
-
-
-def _old_name(found: Element) -> str:
-    """The name that an annotation gives back."""
-    return found.get("was") or found.text or ""
-
-
-def source_name(node: World | Model | Link | Joint | Frame | Collision | Visual | Light | Sensor) -> str:
-    """The name that a part had in the source, where SDF could not have it: the annotated one, or else its own."""
-    found = find_annotation(node, NAME)
-    return _old_name(found) if found and found.get("instead_of") == node.name else node.name or ""
 
 
 def fixed_joint_name(body: str) -> str:
@@ -226,25 +206,13 @@ def fixed_joint_name(body: str) -> str:
     return f"{body}_fixed_joint"
 
 
-def with_old_name(node: AnyNode, name: str) -> AnyNode:
-    """The node with an annotation of its name, before it is renamed."""
-    old: Any = getattr(node, "name", None)
-    return node.copy(opaque=(old_name(old, name), *node.opaque))
-
-
-def old_name(old: str, name: str) -> Opaque:
-    """The annotation of the name that a part had before this one; blanks around it need an attribute."""
-    is_plain = old == old.strip()
-    return annotation(NAME, old if old and is_plain else None, {"instead_of": name, "was": None if is_plain else old})
-
-
 def _model_by_its_name(model: Model) -> Model:
     """The model with its annotated name restored, unless it was renamed since."""
     found = find_annotation(model, NAME)
-    if found is None or not (_old_name(found) or came_from(model, Format.URDF)):  # MJCF may call a model nothing
+    if found is None or not (annotated_name(found) or came_from(model, Format.URDF)):  # MJCF may call a model nothing
         return model
     model = without_annotation(model, NAME)
-    return model.copy(name=_old_name(found)) if found.get("instead_of") == model.name else model
+    return model.copy(name=annotated_name(found)) if found.get("instead_of") == model.name else model
 
 
 Named = TypeVar("Named", Link, Joint, Model)

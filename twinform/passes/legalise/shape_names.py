@@ -11,8 +11,8 @@ from twinform.ir import Collision, Format, Link, Model, Visual, replace_fields
 from twinform.passes.carriers.annotations import came_from, find_annotation, with_annotation, without_annotation
 from twinform.passes.carriers.carriers import Keeper
 from twinform.passes.carriers.lumped_names import Followed, followed, mentions_collisions
+from twinform.passes.carriers.old_names import NAME
 from twinform.passes.framework.pass_base import ModelPass
-from twinform.passes.legalise.changed_names import NAME
 from twinform.passes.legalise.to_urdf_pass import ToUrdfPass, UrdfKeeper
 from twinform.passes.shared.replaced_shapes import CAPSULE_END
 from twinform.passes.structure.tag_shapes import AnyShape, describe_renaming, name_shapes_for_gazebo, seen_shapes

@@ -6,6 +6,7 @@ from typing import ClassVar, TypeVar
 from twinform.dataclass import dataclass
 from twinform.diagnostics import DiagnosticSink, Fate, rules
 from twinform.ir import Document, Frame, Joint, Link, Model, ReferenceKind, World, map_references, rewrite
+from twinform.passes.carriers.old_names import with_old_name
 from twinform.passes.carriers.sdf_versions import VersionKeeper
 from twinform.passes.sdf_versions.version_pass import VersionPass
 from twinform.passes.shared.nodes import reserve_name
@@ -25,10 +26,12 @@ class ClearNames(VersionPass):
     """
 
     name: ClassVar[str] = "clear-names"
+    marks: bool = False
+    """Whether each new name in a model is marked with the old one, for a target that gives it back."""
 
     def change(self, document: Document, keeper: VersionKeeper) -> Document:
         """The document with one name for each thing."""
-        document = rewrite(document, Model, lambda model: _clear(model, keeper.sink))
+        document = rewrite(document, Model, lambda model: _clear(model, keeper.sink, marks=self.marks))
         return rewrite(document, World, lambda world: _clear_world(world, keeper.sink))
 
 
@@ -40,6 +43,7 @@ class _NewNames:
     joints: dict[str, str]
     frames: dict[str, str]
     sink: DiagnosticSink
+    marks: bool = False
 
     def follow(self, kind: ReferenceKind, name: str) -> str:
         """The new name; a frame is a link that is called otherwise now, or else a frame."""
@@ -52,14 +56,17 @@ class _NewNames:
         """The node with its new name."""
         if node.name not in names:
             return node
+        if self.marks and not _is_reserved(node.name):
+            return with_old_name(node, names[node.name]).copy(name=names[node.name])
         kind = type(node).__name__.lower()
         message = f"{kind} {node.name!r} is called {names[node.name]!r} where names are shared"
         self.sink.report(rules.RENAMED, message, node.location, found=node.name)
         self.sink.account(Fate.APPROXIMATED, rules.RENAMED, message, node.location)
+        node = with_old_name(node, names[node.name]) if self.marks else node
         return node.copy(name=names[node.name])
 
 
-def _clear(model: Model, sink: DiagnosticSink) -> Model:
+def _clear(model: Model, sink: DiagnosticSink, *, marks: bool) -> Model:
     taken = {node.name for node in (*model.models, *model.links, *model.joints, *model.frames)}
     # The order (models, links, joints, frames) and the suffixes are those of libsdformat (Model.cc,
     # Load), so the names are the ones that Gazebo shows for the older file.
@@ -71,7 +78,7 @@ def _clear(model: Model, sink: DiagnosticSink) -> Model:
     frames = _clashes(model.frames, "frame", owned, taken)
     if not links and not joints and not frames:
         return model
-    scope = _NewNames(links, joints, frames, sink)
+    scope = _NewNames(links, joints, frames, sink, marks)
     followed = map_references(model, scope.follow)
     update = {
         "links": tuple(scope.rename(link, links) for link in followed.links),

@@ -2,7 +2,8 @@
 
 import math
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from types import MappingProxyType
 
 from twinform.compiler.input.mjcf.remainders import holder
 from twinform.ir import Element, Joint, Link, Mimic, Model, Opaque, rewrite
@@ -11,14 +12,18 @@ from twinform.passes.carriers.annotations import annotation, find_annotation
 from twinform.passes.carriers.carriers import is_carrier
 from twinform.passes.carriers.joint_chains import CHAINS, TWO_AXES, metres_per_radian
 from twinform.passes.carriers.mjcf_texts import LOOP
+from twinform.passes.carriers.old_names import scoped_source_name
 from twinform.passes.carriers.partial_nodes import REST, written_names
 from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements
 
 
-def join_joints(model: Model, partials: Iterable[Joint]) -> tuple[Model, list[Joint]]:
+def join_joints(
+    model: Model, partials: Iterable[Joint], by_file: Mapping[str, str] = MappingProxyType({})
+) -> tuple[Model, list[Joint]]:
     """The model with one joint for the chain of those that a carrier names, as long as they are still one.
 
-    Returned with it are the partial joints that stand for something else by now.
+    `by_file` has the names of joints by those that they have in the file, if these are others. Returned with the model
+    are the partial joints that stand for something else by now.
     """
     several = [(each, names) for each in partials if len(names := written_names(each)) > 1]
     several = [each for each in several if find_annotation(each[0], LOOP) is None]
@@ -31,14 +36,15 @@ def join_joints(model: Model, partials: Iterable[Joint]) -> tuple[Model, list[Jo
     between: set[str | None] = set()
     followed: dict[str, Mimic] = {}
     for partial, names in several:
-        chain = [joints[name] for name in names if name in joints]
+        found = [by_file.get(name, name) for name in names]
+        chain = [joints[name] for name in found if name in joints]
         links = [each.child for each in chain[:-1]]
         if len(chain) != len(names) or not _is_one(partial, chain) or not holding.isdisjoint(links):
             left.append(partial)
             continue
-        joined |= {**dict.fromkeys(names), chain[-1].name: _joined(partial, chain)}
+        joined |= {**dict.fromkeys(found), chain[-1].name: _joined(partial, chain)}
         between.update(links)
-        followed |= {name: _leader(partial, is_last=name == names[-1]) for name in names}
+        followed |= {name: _leader(partial, is_last=name == found[-1]) for name in found}
     made = tuple(kept for each in model.joints if (kept := joined.get(each.name, each)) is not None)
     model = model.copy(links=tuple(each for each in model.links if each.name not in between), joints=made)
     return rewrite(model, Mimic, lambda mimic: _led(mimic, followed.get(mimic.joint or ""))), left
@@ -93,17 +99,19 @@ def _kept_of(partial: Joint, chain: Sequence[Joint]) -> tuple[Opaque, ...]:
     """What the joints of a chain keep: each for itself under its name, if any keeps something or was renamed."""
     named: list[Element] = []
     others: list[Element] = []
-    for joint in chain:
+    written = written_names(partial)
+    for joint, name in zip(chain, written, strict=True):
         kept = [each for each in kept_elements(joint) if each.name == "joint"]
-        attributes = (("name", joint.name), *(pair for each in kept for pair in each.attributes))
+        attributes = (("name", name), *(pair for each in kept for pair in each.attributes))
         named.append(Element.unchecked(name="joint", attributes=attributes))
         others += (each for each in kept_elements(joint) if each.name != "joint")
     rest = tuple(part for joint in chain for part in joint.opaque if not is_carrier(part, "mjcf"))
-    usual = (f"{partial.name}_{CHAINS[partial.type][0]}", partial.name)
+    wished = scoped_source_name(partial)
+    usual = (f"{wished}_{CHAINS[partial.type][0]}", wished)
     # Where the names were taken, those that were written end in numbers.
     is_usual = all(
-        re.fullmatch(rf"{re.escape(wish)}(_\d+)?", joint.name) and len(kept.attributes) == 1
-        for wish, joint, kept in zip(usual, chain, named, strict=True)
+        re.fullmatch(rf"{re.escape(wish)}(_\d+)?", name) and len(kept.attributes) == 1
+        for wish, name, kept in zip(usual, written, named, strict=True)
     )
     children = tuple(others if is_usual else (*named, *others))
     return (*rest, holder(*children)) if children else rest

@@ -25,7 +25,7 @@ from twinform.compiler.input.mjcf.spellings import Spellings
 from twinform.compiler.input.mjcf.usual_remainders import without_assets, without_named
 from twinform.compiler.input.mjcf.written_models import without_stand_ins
 from twinform.diagnostics import DiagnosticSink
-from twinform.ir import Document, Format, Frame, Joint, Link, Model, Node, Opaque, Pose, World, replace_fields
+from twinform.ir import Document, Format, Frame, Joint, Link, Model, Node, Opaque, Pose, World, replace_fields, rewrite
 from twinform.ir.element import Namespaces
 from twinform.ir.frames import MODEL, WORLD, FrameError, FrameGraph
 from twinform.ir.scopes import scoped_models
@@ -43,6 +43,7 @@ from twinform.passes.carriers.carriers import PREFIX as TF
 from twinform.passes.carriers.mjcf_texts import ATTACHED, DOCUMENT, PREFIXES, SEVERAL
 from twinform.passes.carriers.partial_nodes import WRITTEN, Merging, is_rest, written_names
 from twinform.passes.carriers.token_mass import UNSAID, restore_inertial, says_zero
+from twinform.passes.legalise.changed_names import RestoreNames
 from twinform.passes.legalise.nested_models import NameScopes, RestoreNested
 from twinform.passes.legalise.to_mjcf.kept_mjcf import KEPT
 from twinform.passes.legalise.to_mjcf.rotors import with_rotors
@@ -104,7 +105,7 @@ class _Merged:
         elif self.around is not None:
             self.around = replace_fields(self.around, lights=lights)
         model = without_parts_of_sensors(model, self.parts)
-        model, left = join_joints(model, self.joints)
+        model, left = join_joints(model, self.joints, self.names)
         for each in left:
             self._stale(f"joint {each.name!r} is no joint of type {each.type} any more", each)
         gone = set(map(id, left))
@@ -315,7 +316,15 @@ class _Merged:
         mixed = (*lower_meaning(version), SetVersion.unchecked(version=version))
         for step in mixed if self._is_mixed else change_version(newest, version):
             document = step.run(document, self.sink)
-        return document
+        is_old = not self._is_mixed and version in _BEFORE_NAMED_FRAMES
+        return rewrite(document, Model, self._with_old_names) if is_old else document
+
+    def _with_old_names(self, model: Model) -> Model:
+        """The model of a version in which a link, a joint and a frame may have one name, with these names."""
+        origin = find_annotation(model, FROM)
+        marked = model if origin is not None else with_annotation(model, FROM, attributes={"format": "sdf"})
+        made = RestoreNames.unchecked(to=Format.SDF, apart=True).run_model(marked, self.sink)
+        return made if origin is not None else without_annotation(made, FROM)
 
     def _stale(self, message: str, node: Node) -> None:
         report_stale(self.sink, message, node.source)

@@ -11,7 +11,7 @@ from twinform.compiler.input.mjcf.pieces import Piece
 from twinform.ir import Node, Opaque
 from twinform.ir.frames import WORLD
 from twinform.passes.carriers.annotations import MADE_NAME, annotation, with_annotation
-from twinform.passes.legalise.changed_names import old_name
+from twinform.passes.carriers.old_names import old_name
 from twinform.passes.legalise.to_mjcf.writing_context import safe_name
 from twinform.passes.shared.nodes import reserve_name
 

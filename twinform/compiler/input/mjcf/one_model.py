@@ -12,7 +12,7 @@ from twinform.passes.carriers.annotations import (
     find_annotation,
     without_annotation,
 )
-from twinform.passes.legalise.changed_names import NAME
+from twinform.passes.carriers.old_names import NAME
 from twinform.passes.shared.nodes import reserve_name
 
 

@@ -18,7 +18,7 @@ from twinform.ir import Document, Element, Node, Opaque
 from twinform.ir.rewrite import walk
 from twinform.passes.carriers.annotations import find_annotation
 from twinform.passes.carriers.carriers import NAMESPACE, without_ours
-from twinform.passes.legalise.changed_names import NAME
+from twinform.passes.carriers.old_names import NAME
 from twinform.passes.legalise.to_mjcf.kept_mjcf import KNOWN
 from twinform.schemas import XmlElement
 

@@ -6,8 +6,9 @@ from twinform.ir import Format, Frame, Joint, Link, Model, replace_fields
 from twinform.ir.scopes import SCOPE
 from twinform.passes.carriers.annotations import MADE_NAME, find_annotation, is_synthesized, without_annotation
 from twinform.passes.carriers.mjcf_texts import LOOP
+from twinform.passes.carriers.old_names import NAME
 from twinform.passes.carriers.partial_nodes import written_name, written_names
-from twinform.passes.legalise.changed_names import NAME, Names, renamed
+from twinform.passes.legalise.changed_names import Names, renamed
 from twinform.passes.shared.nodes import unique_name
 from twinform.passes.shared.poses import NESTED
 from twinform.passes.structure.rename_parts import Part

@@ -8,8 +8,8 @@ from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Element, Frame, Joint, Light, Link, Model, Node, Opaque, Sensor, World, replace_fields, rewrite
 from twinform.passes.carriers.annotations import find_annotation, without_annotation
 from twinform.passes.carriers.mjcf_texts import PARTS, digest_of
+from twinform.passes.carriers.old_names import NAME
 from twinform.passes.carriers.partial_nodes import REST, written_name, written_names
-from twinform.passes.legalise.changed_names import NAME
 from twinform.passes.legalise.to_mjcf.kept_mjcf import KEPT
 from twinform.passes.legalise.to_mjcf.options import SETTINGS
 from twinform.schemas import XmlElement

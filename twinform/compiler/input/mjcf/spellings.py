@@ -36,10 +36,10 @@ from twinform.ir.transform import Transform, rounded
 from twinform.passes.carriers.absorb import CarrierError, absorb
 from twinform.passes.carriers.annotations import CONTINUOUS, find_annotation, without_annotation
 from twinform.passes.carriers.mjcf_texts import AXES, LOOK_OF, NORMAL, SHAPE_OF, TURN, Tagged, digest_of, look_parts
+from twinform.passes.carriers.old_names import NAME, source_name
 from twinform.passes.carriers.partial_nodes import written_name
 from twinform.passes.carriers.said_by_mjcf import LIMITED
 from twinform.passes.carriers.token_mass import UNSAID
-from twinform.passes.legalise.changed_names import NAME, source_name
 from twinform.passes.legalise.to_mjcf.contact_plan import MASKS
 from twinform.passes.legalise.to_mjcf.friction import friction_of, rolling_of, torsional_part, with_rolling
 from twinform.passes.legalise.to_mjcf.geoms import turn_up_to

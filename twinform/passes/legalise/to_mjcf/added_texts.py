@@ -39,8 +39,9 @@ from twinform.passes.carriers.mjcf_texts import (
     PARTS,
     SHAPE_OF,
 )
+from twinform.passes.carriers.old_names import source_name
 from twinform.passes.carriers.partial_nodes import WRITTEN, Left, is_bare, is_rest, remainder
-from twinform.passes.legalise.changed_names import fixed_joint_name, source_name
+from twinform.passes.legalise.changed_names import fixed_joint_name
 from twinform.passes.legalise.to_mjcf.contact_plan import MASKS
 from twinform.passes.legalise.to_mjcf.file_models import FileModels
 from twinform.passes.legalise.to_mjcf.friction import USUAL_SLIDING, without_friction

@@ -8,7 +8,7 @@ import math
 
 from twinform.ir import Element, Pose, Sensor
 from twinform.ir.transform import Transform
-from twinform.passes.legalise.changed_names import source_name
+from twinform.passes.carriers.old_names import source_name
 from twinform.passes.legalise.to_mjcf.elements import Value, make_element, placement
 from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements, with_kept
 from twinform.passes.legalise.to_mjcf.said_parts import child_count, child_number, child_vector

@@ -14,7 +14,7 @@ from twinform.ir.frames import WORLD
 from twinform.ir.kinematic_tree import JointBetween
 from twinform.ir.node import Vector3
 from twinform.ir.transform import Transform, rounded
-from twinform.passes.legalise.changed_names import source_name
+from twinform.passes.carriers.old_names import source_name
 from twinform.passes.legalise.to_mjcf.elements import Value, make_element
 from twinform.passes.legalise.to_mjcf.kept_mjcf import with_kept_equality
 from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext, scope_of

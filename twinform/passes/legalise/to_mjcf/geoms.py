@@ -25,7 +25,7 @@ from twinform.ir.node import Vector3
 from twinform.ir.pose import Pose
 from twinform.ir.transform import Transform
 from twinform.passes.carriers.annotations import SAME_GEOM, find_annotation
-from twinform.passes.legalise.changed_names import source_name
+from twinform.passes.carriers.old_names import source_name
 from twinform.passes.legalise.to_mjcf.assets import height_field, mesh_asset, vector_in
 from twinform.passes.legalise.to_mjcf.contact_plan import has_shape
 from twinform.passes.legalise.to_mjcf.contacts import touch_of

@@ -11,7 +11,7 @@ from twinform.ir import Element, Sensor
 from twinform.ir.kinematic_tree import JointBetween
 from twinform.ir.pose import Pose
 from twinform.ir.transform import Transform
-from twinform.passes.legalise.changed_names import source_name
+from twinform.passes.carriers.old_names import source_name
 from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements
 from twinform.passes.legalise.to_mjcf.said_parts import child_number, child_text, untyped
 from twinform.passes.legalise.to_mjcf.writing_context import Body, KeptSensor, MjcfContext, ScopedFrame

@@ -7,7 +7,7 @@ from twinform.ir.frames import WORLD
 from twinform.ir.node import Vector3
 from twinform.ir.transform import Transform, rounded
 from twinform.passes.carriers.carriers import is_ours
-from twinform.passes.legalise.changed_names import source_name
+from twinform.passes.carriers.old_names import source_name
 from twinform.passes.legalise.to_mjcf.elements import Attributes, Value, make_element, position
 from twinform.passes.legalise.to_mjcf.kept_mjcf import with_kept
 from twinform.passes.legalise.to_mjcf.said_parts import (

@@ -9,6 +9,7 @@ from twinform.passes.legalise.to_mjcf.factor_defaults import FactorDefaults
 from twinform.passes.legalise.to_mjcf.hold_root import HoldRoot
 from twinform.passes.legalise.to_mjcf.write_mjcf import WriteMjcf
 from twinform.passes.sdf_versions import change_version, raise_words
+from twinform.passes.sdf_versions.clear_names import ClearNames
 from twinform.passes.sdf_versions.set_version import SetVersion
 from twinform.passes.sdf_versions.write_inertias import WriteInertias
 from twinform.request_options import USUAL, Requested
@@ -36,7 +37,7 @@ def to_mjcf(
         declared = version
         in_sdf = (*raise_words(version, mixed=True), SetVersion.unchecked(version=newest))
     else:
-        declared, in_sdf = version, () if version == newest else change_version(version, newest, marking)
+        declared, in_sdf = version, () if version == newest else tuple(_with_old_names(version, newest, marking))
     write = WriteMjcf.unchecked(
         carriers=requested.carriers,
         source_version=declared,
@@ -48,6 +49,12 @@ def to_mjcf(
     # MuJoCo computes inertias of shapes in its own way, and of all links or none.
     factor = (FactorDefaults.unchecked(),) if requested.default_classes else ()
     return (*in_sdf, WriteInertias.unchecked(version=_WITHOUT_AUTOMATIC), write, *factor)
+
+
+def _with_old_names(version: str | None, newest: str, requested: Requested) -> Iterator[Pass]:
+    """Yield the passes to the newest version of SDF, which mark what had a name that is free in MJCF."""
+    for each in change_version(version, newest, requested):
+        yield each.model_copy(update={"marks": True}) if isinstance(each, ClearNames) else each
 
 
 def _robot_on_the_world(version: str, requested: Requested, *, mixed: bool) -> Iterator[Pass]:

@@ -7,8 +7,8 @@ from twinform.diagnostics import DiagnosticSink, Fate
 from twinform.ir import Document, Element, Format, Model, Opaque, World
 from twinform.ir.frames import FrameError
 from twinform.passes.carriers.carriers import Keeper
+from twinform.passes.carriers.old_names import source_name
 from twinform.passes.framework.pass_base import AssetPass
-from twinform.passes.legalise.changed_names import source_name
 from twinform.passes.legalise.to_mjcf.actuator_efforts import settle_efforts
 from twinform.passes.legalise.to_mjcf.bodies import body_elements
 from twinform.passes.legalise.to_mjcf.contacts import add_contacts

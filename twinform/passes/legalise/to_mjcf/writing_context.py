@@ -20,8 +20,8 @@ from twinform.ir.scopes import SCOPE, scoped_models
 from twinform.ir.transform import Transform
 from twinform.passes.carriers.annotations import MADE_NAME, find_annotation
 from twinform.passes.carriers.carriers import Keeper
+from twinform.passes.carriers.old_names import source_name
 from twinform.passes.framework.assets import NO_ASSETS, Assets
-from twinform.passes.legalise.changed_names import source_name
 from twinform.passes.legalise.to_mjcf.contact_plan import ContactPlan
 from twinform.passes.legalise.to_mjcf.friction import Friction, friction_priorities
 from twinform.passes.legalise.to_mjcf.kept_mjcf import ROOT, kept_elements

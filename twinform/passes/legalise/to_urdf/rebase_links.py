@@ -23,7 +23,8 @@ from twinform.ir.frames import MODEL, WORLD, FrameGraph, Kind
 from twinform.ir.transform import Transform
 from twinform.passes.carriers.annotations import REVERSED, annotation, find_annotation, is_synthesized
 from twinform.passes.carriers.joint_chains import part_of
-from twinform.passes.legalise.changed_names import NAME, SCOPED_NAME
+from twinform.passes.carriers.old_names import NAME
+from twinform.passes.legalise.changed_names import SCOPED_NAME
 from twinform.passes.legalise.to_urdf_pass import ToUrdfPass, UrdfKeeper
 from twinform.passes.shared.joint_ends import joint_pose_attributes
 from twinform.passes.shared.poses import (

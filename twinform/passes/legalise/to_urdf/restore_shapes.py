@@ -5,9 +5,9 @@ from typing import ClassVar, TypeVar
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Collision, Format, Inertial, Link, Model, Visual, replace_fields
 from twinform.passes.carriers.annotations import came_from, find_annotation, without_annotation
+from twinform.passes.carriers.old_names import NAME
 from twinform.passes.carriers.token_mass import moments, restore_inertial, says_zero
 from twinform.passes.framework.pass_base import ModelPass
-from twinform.passes.legalise.changed_names import NAME
 from twinform.passes.legalise.shape_names import UNNAMED
 
 Shape = TypeVar("Shape", Visual, Collision)
