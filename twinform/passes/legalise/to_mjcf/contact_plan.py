@@ -15,7 +15,7 @@ from functools import cached_property
 from itertools import combinations
 from typing import NamedTuple
 
-from twinform.ir import Collision, Model, Visual, World
+from twinform.ir import Collision, Model, World
 from twinform.ir.frames import WORLD
 from twinform.ir.geometry import Empty
 from twinform.ir.kinematic_tree import KinematicTree
@@ -65,7 +65,7 @@ class ContactPlan:
         self._groups: dict[str, list[str]] = defaultdict(list)
         """The links that have collisions, by the outermost model that they are in."""
         for name, link in tree.links.items():
-            if any(map(has_shape, link.collisions)):
+            if any(map(_has_shape, link.collisions)):
                 self._groups[name.partition(SCOPE)[0] if isinstance(holder, World) else ""].append(name)
         collisions = [each for link in tree.links.values() for each in link.collisions]
         self._has_masks = any(mask_of(each, name) is not None for each in collisions for name in MASKS)
@@ -185,7 +185,7 @@ class ContactPlan:
         return any(a.meets(b) for a in mine for b in others)
 
     def _bits_of(self, link: str) -> frozenset[Bits]:
-        return frozenset(self.bits(link, each) for each in self._tree.links[link].collisions if has_shape(each))
+        return frozenset(self.bits(link, each) for each in self._tree.links[link].collisions if _has_shape(each))
 
     def is_filtered(self, one: str, other: str) -> bool:
         """Whether MuJoCo leaves out the contacts of two links by itself."""
@@ -229,9 +229,9 @@ def mask_of(collision: Collision, name: str) -> int | None:
     return (whole_number(text, ALL_TOUCH) + _SIGN) % (2 * _SIGN) - _SIGN if text else None
 
 
-def has_shape(part: Collision | Visual) -> bool:
-    """Whether a collision can touch anything, or a visual be seen: without a shape it has no geom."""
-    shape = part.geometry.shape if part.geometry else None
+def _has_shape(collision: Collision) -> bool:
+    """Whether a collision can touch anything: without a shape it has no geom."""
+    shape = collision.geometry.shape if collision.geometry else None
     return shape is not None and not isinstance(shape, Empty)
 
 

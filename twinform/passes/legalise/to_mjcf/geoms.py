@@ -4,11 +4,11 @@ A visual is a geom that touches nothing (`contype` and `conaffinity` 0) and weig
 which viewers show; collisions are in group 3, which they hide, where the model has any visuals. Sizes are half sizes.
 """
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Sequence
 from typing import NamedTuple, TypeVar
 
 from twinform.diagnostics import rules
-from twinform.ir import Collision, Element, Link, Visual
+from twinform.ir import Collision, Element, Visual
 from twinform.ir.geometry import (
     Box,
     Capsule,
@@ -27,11 +27,10 @@ from twinform.ir.transform import Transform
 from twinform.passes.carriers.annotations import SAME_GEOM, find_annotation
 from twinform.passes.carriers.old_names import source_name
 from twinform.passes.legalise.to_mjcf.assets import height_field, mesh_asset, vector_in
-from twinform.passes.legalise.to_mjcf.contact_plan import has_shape
 from twinform.passes.legalise.to_mjcf.contacts import touch_of
 from twinform.passes.legalise.to_mjcf.elements import ENDLESS, GRID, Attributes, Value, make_element, placement
 from twinform.passes.legalise.to_mjcf.fitted_geoms import fitted_mesh, geom_size, without_mesh
-from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_of_geom, with_kept
+from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements, kept_of_geom, with_kept
 from twinform.passes.legalise.to_mjcf.looks import has_look
 from twinform.passes.legalise.to_mjcf.materials import look_of, with_known_material
 from twinform.passes.legalise.to_mjcf.said_parts import without_elements
@@ -64,7 +63,6 @@ def geom_elements(context: MjcfContext, body: Body) -> list[Element]:
     found: list[Element] = []
     marked = (each for each in body.link.visuals if find_annotation(each, SAME_GEOM) is not None)
     twins = {each.name: each for each in marked} if context.is_of_mjcf else {}
-    hides = _hides_what_touches(body.link, twins)
     parted = {each.name: each for each in body.link.collisions if each.name in twins}
     done, shown = set[int](), set[str]()
     for collision in body.link.collisions:
@@ -76,7 +74,7 @@ def geom_elements(context: MjcfContext, body: Body) -> list[Element]:
                 shown.add(_kept_group(collision))
                 more = [*more, *look_of(context, body, twin, collision)]
             else:
-                more = [*more, *_group(context, collision, _TOUCHED, hides=hides)]
+                more = [*more, *_group(context, collision, _TOUCHED)]
             is_seen = twin is not None and id(twin) in done
             found.append(_geom(context, body, collision, shape, more, seen=twin if is_seen else None))
             if twin is not None and is_seen and id(collision) in context.written_geoms:
@@ -85,13 +83,14 @@ def geom_elements(context: MjcfContext, body: Body) -> list[Element]:
     for visual in body.link.visuals:
         if id(visual) not in done and (shape := _shape_of(context, body, visual)) is not None:
             # Beside visuals in their own group, one that touches too would count as hidden.
-            group = _beside_twins(visual, shown) if done else _group(context, visual, _SEEN, hides=hides)
+            group = _beside_twins(visual, shown) if done else _group(context, visual, _SEEN)
             weightless = () if context.is_of_mjcf or kept_of_geom(visual, "density") else _WEIGHTLESS
             looks = look_of(context, body, visual, other := parted.get(visual.name))
             if other is not None and (material := kept_of_geom(other, "material")):  # only the collision was changed
                 looks = [("material", material), *looks]
             more = [*_UNTOUCHED, *group, *weightless, *looks]
             found.append(_geom(context, body, visual, shape, more, seen=visual))
+    found = _with_hidden_alone(context, body, found)
     if context.unnamed:
         _name_what_is_read_otherwise(context, body, [each.get("name") or "" for each in found])
     return found
@@ -101,16 +100,24 @@ def _is_one_geom(twin: Visual, collision: Collision) -> bool:
     return (twin.geometry, twin.pose) == (collision.geometry, collision.pose)
 
 
-def _hides_what_touches(link: Link, twins: Mapping[str | None, Visual]) -> bool:
-    """Whether geoms in group 0 of a link are read as hidden: if others are only seen, in a group of their own.
+def _with_hidden_alone(context: MjcfContext, body: Body, geoms: list[Element]) -> list[Element]:
+    """The geoms of a body, where those that only touch are in a group of their own, unless others have them hidden."""
+    names = context.written_geoms
+    seen = {names.get(id(each)) for each in body.link.visuals}
+    alone = {names.get(id(each)) for each in body.link.collisions if _is_hidden_beside(context, each)} - seen
+    if not alone or any(map(_hides_what_touches, (*geoms, *kept_elements(body.link)))):
+        return geoms
+    return [_in_group(each, _TOUCHED) if each.get("name") in alone else each for each in geoms]
 
-    Those go into group 0 beside a geom there that is seen and touches: see `_beside_twins`.
-    """
-    shared = [each for each in link.collisions if (twin := twins.get(each.name)) and _is_one_geom(twin, each)]
-    names = {each.name for each in shared}
-    alone = (each for each in link.visuals if twins.get(each.name) is not each or each.name not in names)
-    is_apart = any(_kept_group(each) in {"1", "2"} and has_shape(each) for each in alone)
-    return is_apart and {"", "0"}.isdisjoint(map(_kept_group, shared))
+
+def _hides_what_touches(geom: Element) -> bool:
+    """Whether geoms in group 0 are read as hidden beside this one: it is only seen, and in a group of its own."""
+    return (geom.get("contype"), geom.get("conaffinity")) == ("0", "0") and geom.get("group") in {"1", "2"}
+
+
+def _in_group(geom: Element, group: int) -> Element:
+    others = tuple(pair for pair in geom.attributes if pair[0] != "group")
+    return geom.copy(attributes=(*others, ("group", str(group))))
 
 
 def _name_what_is_read_otherwise(context: MjcfContext, body: Body, geoms: Sequence[str]) -> None:
@@ -143,18 +150,21 @@ def _leave_as(context: MjcfContext, written: Collision, twin: Visual) -> None:
         context.leave(other, context.left[id(one)][1])
 
 
-def _group(context: MjcfContext, part: Visual | Collision, group: int, *, hides: bool) -> list[tuple[str, Value]]:
-    """The group of a geom: collisions are in one of their own where there are visuals; one of MJCF stays in its own.
+def _group(context: MjcfContext, part: Visual | Collision, group: int) -> list[tuple[str, Value]]:
+    """The group of a geom: collisions are in one of their own where there are visuals; one of MJCF stays in its own."""
+    is_touched = group == _TOUCHED
+    if context.is_of_mjcf:
+        is_shown = is_touched and _kept_group(part) in {"1", "2"} and not _is_transparent(context, part)
+        return [("group", str(group))] if is_shown else []
+    return [] if _kept_group(part) or (is_touched and not context.has_visuals) else [("group", str(group))]
 
-    In a file of MJCF a collision without a visual is shown by nothing: its group is hidden, it is wholly transparent,
-    or `hides` is whether others in its body have it hidden. Otherwise it was added to the robot while that was in
-    another language, or its visual was deleted there.
+
+def _is_hidden_beside(context: MjcfContext, collision: Collision) -> bool:
+    """Whether a collision without a visual of a file of MJCF is shown unless others in its body have it hidden.
+
+    Then it was added to the robot while that was in another language, or its visual was deleted there.
     """
-    is_touched, kept = group == _TOUCHED, _kept_group(part)
-    if not context.is_of_mjcf:
-        return [] if kept or (is_touched and not context.has_visuals) else [("group", str(group))]
-    is_hidden = int(kept or 0) >= _TOUCHED or (hides and kept in {"", "0"}) or _is_transparent(context, part)
-    return [("group", str(group))] if is_touched and not is_hidden else []
+    return context.is_of_mjcf and _kept_group(collision) in {"", "0"} and not _is_transparent(context, collision)
 
 
 def _beside_twins(visual: Visual, shown: Collection[str]) -> list[tuple[str, Value]]:
