@@ -203,3 +203,12 @@ def test_a_terrain_that_is_seen_and_touched_needs_no_text() -> None:
     ground = b"""<mujoco model="ground"><asset><hfield name="hills" file="hills.png" size="1 1 0.1 0.1"/></asset>
       <worldbody><geom name="hills" type="hfield" hfield="hills"/></worldbody></mujoco>"""
     assert "<custom>" not in convert(convert(ground, to="sdf").text.encode(), to="mjcf").text
+
+
+def test_a_model_that_was_a_urdf_between_still_floats_in_mjcf() -> None:
+    sail = '<link name="sail"><inertial><mass>1</mass></inertial></link>'
+    kite = f'<sdf version="1.12"><model name="kite">{sail}</model></sdf>'
+    urdf = convert(kite.encode(), to="urdf").text
+    there = convert(urdf.encode(), to="mjcf").text
+    assert "<freejoint/>" in there
+    assert convert(there.encode(), to="urdf").text == urdf

@@ -3,9 +3,9 @@
 from typing import ClassVar
 
 from twinform.diagnostics import DiagnosticSink
-from twinform.ir import Joint, Model
+from twinform.ir import Format, Joint, Model
 from twinform.ir.frames import WORLD
-from twinform.passes.carriers.annotations import annotate_synthesized
+from twinform.passes.carriers.annotations import annotate_synthesized, came_from
 from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.legalise.to_mjcf.kept_mjcf import ROOT, kept_elements
 from twinform.passes.shared.nodes import unique_name
@@ -15,8 +15,8 @@ class HoldRoot(ModelPass):
     """Fix the root of a robot of URDF to the world, where MuJoCo's reader of URDF and RViz have it.
 
     Changes: the link that is no joint's child hangs from the world by a fixed joint, which is annotated as made.
-    Never touches: a robot whose root is a link called `world`; links that floating joints leave free; what was read of
-    MJCF, where a root floats unless it hangs from the world.
+    Never touches: a robot whose root is a link called `world`; links that floating joints leave free; what was
+    converted from SDF or read of MJCF, where a root floats unless it hangs from the world.
     Diagnostics: none.
     """
 
@@ -27,8 +27,8 @@ class HoldRoot(ModelPass):
         del sink
         children = {joint.child for joint in model.joints}
         root = next((link for link in model.links if link.name not in children), None)
-        is_of_mjcf = any(each.name == ROOT for each in kept_elements(model))
-        if root is None or is_of_mjcf or any(joint.parent == WORLD for joint in model.joints):
+        may_float = came_from(model, Format.SDF) or any(each.name == ROOT for each in kept_elements(model))
+        if root is None or may_float or any(joint.parent == WORLD for joint in model.joints):
             return model
         taken = {node.name for node in (*model.links, *model.joints, *model.frames)}
         name = unique_name(f"{root.name}_on_world", taken)
