@@ -21,7 +21,7 @@ from twinform.compiler.input.mjcf.restore_sensors import (
 from twinform.compiler.input.mjcf.spellings import Spellings
 from twinform.compiler.input.mjcf.written_models import with_written_models, without_stand_ins
 from twinform.diagnostics import DiagnosticSink
-from twinform.ir import Document, Frame, Joint, Link, Model, Node, World, replace_fields, rewrite
+from twinform.ir import Document, Frame, Joint, Link, Model, Node, Opaque, World, replace_fields, rewrite
 from twinform.ir.frames import WORLD
 from twinform.ir.scopes import nested_models
 from twinform.passes.carriers.annotations import (
@@ -31,6 +31,7 @@ from twinform.passes.carriers.annotations import (
     with_annotation,
     without_annotation,
 )
+from twinform.passes.carriers.lumped_names import Followed, followed
 from twinform.passes.carriers.mjcf_texts import PART
 from twinform.passes.carriers.partial_nodes import WRITTEN, Merging, is_rest, written_name, written_names
 from twinform.passes.legalise.changed_names import fixed_joint_name
@@ -166,7 +167,8 @@ class _PartMerging:
         if not isinstance(partial, type(node)):
             return node
         self._used.add(id(partial))
-        return self._merging.merge(node, _bare(partial).copy(name=node.name))
+        named = _with_sensed_names(node, partial) if isinstance(node, Link) and isinstance(partial, Link) else node
+        return self._merging.merge(named, _bare(partial).copy(name=node.name))
 
     def _merged_joint(self, joint: Joint, fixed: Mapping[str, Joint], chains: Mapping[str, Joint]) -> Joint:
         """A joint with what a carrier holds of it, if it is fixed, or was several by the name that it has now."""
@@ -181,6 +183,22 @@ AnyNode = TypeVar("AnyNode", bound=Node)
 
 def _bare(partial: AnyNode) -> AnyNode:
     return without_annotation(partial, WRITTEN)
+
+
+def _with_sensed_names(link: Link, partial: Link) -> Link:
+    """A link whose contact sensors call its collisions as a carrier does, and no longer as the file calls its geoms."""
+    found = ((written_name(each), each.name) for each in partial.collisions)
+    names = {written: Followed(name, link.name) for written, name in found if written and name and written != name}
+    if not names:
+        return link
+
+    def told(part: Opaque) -> Opaque:
+        if part.element is None or part.element.name != "contact":
+            return part
+        return part.copy(element=followed(part.element, names, carriers=False))
+
+    sensors = (each.copy(opaque=tuple(map(told, each.opaque))) for each in link.sensors)
+    return link.copy(sensors=tuple(sensors))
 
 
 def _called(partial: Joint, names: Mapping[str, str]) -> Joint:
