@@ -9,6 +9,7 @@ has been edited.
 """
 
 from collections.abc import Sequence
+from pathlib import PurePosixPath
 
 from twinform.ir import Collision, Element, Joint, Node, Visual
 from twinform.ir.transform import rounded
@@ -67,6 +68,12 @@ def kept_of_geom(part: Visual | Collision, name: str) -> str:
         if each.name == "geom" and (value := each.get(name)):
             return value
     return ""
+
+
+def asset_name(asset: Element) -> str:
+    """The name of an asset: one without a name is called after its file."""
+    file = (asset.get("file") or "").replace("\\", "/")
+    return asset.get("name") or PurePosixPath(file).stem
 
 
 def with_kept(element: Element, node: Node) -> Element:

@@ -17,6 +17,7 @@ from twinform.passes.legalise.to_mjcf.kept_mjcf import (
     SINGLE,
     TARGETS,
     WITHOUT_CONTROL_LIMIT,
+    asset_name,
     kept_elements,
     merged,
 )
@@ -138,9 +139,12 @@ class _Sections:
 
 
 def _with_paths(context: MjcfContext, asset: Element) -> Element:
-    """The asset with paths from the folder of the document, which another format may have as URIs."""
+    """The asset with its name, and paths from the folder of the document, which another format may have as URIs."""
     paths = {key: file_path(context, value, asset.location) for key, value in asset.attributes if key in FILES_OF_MJCF}
-    return asset.copy(attributes=tuple((key, paths.get(key, value)) for key, value in asset.attributes))
+    attributes = tuple((key, paths.get(key, value)) for key, value in asset.attributes)
+    if asset.get("name") or not (name := asset_name(asset)):
+        return asset.copy(attributes=attributes)
+    return asset.copy(attributes=(("name", name), *attributes))
 
 
 def _renamed(element: Element, names: _Names, scope: str) -> Element:

@@ -7,7 +7,7 @@ from collections.abc import Collection, Iterator
 from typing import NamedTuple, Self
 
 from twinform.ir import Element, Model, Opaque, World, walk
-from twinform.passes.legalise.to_mjcf.kept_mjcf import KEPT, kept_elements
+from twinform.passes.legalise.to_mjcf.kept_mjcf import KEPT, asset_name, kept_elements
 from twinform.schemas.mjcf_references import ASSET_KINDS, naming_attributes
 
 _SECTION = "asset"
@@ -24,7 +24,7 @@ class NamedAssets(NamedTuple):
     def of(cls, world: World) -> Self:
         """Look through what a world keeps."""
         sections = [each for each in kept_elements(world) if each.name == _SECTION]
-        return cls({(each.name, each.get("name") or ""): each for section in sections for each in section.children})
+        return cls({(each.name, asset_name(each)): each for section in sections for each in section.children})
 
     def with_model(self, model: Model) -> Model:
         """The model, keeping the assets that it names, and those that these name."""

@@ -24,7 +24,7 @@ from twinform.passes.carriers.old_names import source_name
 from twinform.passes.framework.assets import NO_ASSETS, Assets
 from twinform.passes.legalise.to_mjcf.contact_plan import ContactPlan
 from twinform.passes.legalise.to_mjcf.friction import Friction, friction_priorities
-from twinform.passes.legalise.to_mjcf.kept_mjcf import ROOT, kept_elements
+from twinform.passes.legalise.to_mjcf.kept_mjcf import ROOT, asset_name, kept_elements
 from twinform.passes.legalise.to_mjcf.mesh_colors import Rgba, Several
 from twinform.passes.legalise.to_mjcf.rotors import Rotor, rotors_of
 from twinform.passes.legalise.to_sdf.joint_types import FLOATING
@@ -189,7 +189,7 @@ class MjcfContext:
     def _kept_assets(self) -> Mapping[tuple[str, str], Element]:
         holders = (self.holder, *(each for _, each in self.models))
         sections = (each for holder in holders for each in kept_elements(holder) if each.name == "asset")
-        return {(each.name, each.get("name") or ""): each for section in sections for each in section.children}
+        return {(each.name, asset_name(each)): each for section in sections for each in section.children}
 
     def kept_asset(self, kind: str, name: str) -> Element | None:
         """What is kept of an asset that was read of MJCF."""
