@@ -128,10 +128,11 @@ class Transform:
 def rounded(vector: Vector3) -> Vector3:
     """Return the vector without rounding noise: a number next to one with few digits becomes that one."""
     x, y, z = vector
-    return (_rounded(x), _rounded(y), _rounded(z))
+    return (rounded_number(x), rounded_number(y), rounded_number(z))
 
 
-def _rounded(number: float) -> float:
+def rounded_number(number: float) -> float:
+    """Return the number without rounding noise, and 0 for -0."""
     # Poses composed along a chain of frames end in 0.30000000000000004.
     short = round(number, _DIGITS)
     if short == number:  # as most are

@@ -11,7 +11,7 @@ from twinform.compiler.input.mjcf.remainders import RemainderKeeper, holder
 from twinform.ir import Axis, Dynamics, Joint, JointType, Limit, Mimic, Opaque, Pose
 from twinform.ir.defaults import AXIS
 from twinform.ir.document import Format
-from twinform.ir.transform import rounded
+from twinform.ir.transform import rounded_number
 from twinform.passes.legalise.to_mjcf.actuator_efforts import counts
 from twinform.passes.legalise.to_mjcf.kept_mjcf import FORCE
 from twinform.schemas import format_value
@@ -105,7 +105,7 @@ def _range(piece: Piece, ref: float) -> tuple[float | None, float | None]:
         return None, None
     piece.take("limited")
     least, most = piece.numbers("range")
-    lower, upper, _ = rounded((least - ref, most - ref, 0.0)) if ref else (least, most, 0.0)
+    lower, upper = (rounded_number(least - ref), rounded_number(most - ref)) if ref else (least, most)
     return (lower if math.isfinite(lower) else None), (upper if math.isfinite(upper) else None)
 
 
@@ -140,7 +140,7 @@ def _dynamics(piece: Piece, ref: float) -> Dynamics | None:
     stiffness = _first_coefficient(piece, "stiffness")
     reference = None
     if stiffness:
-        reference = rounded(((piece.number("springref") or 0.0) - ref, 0.0, 0.0))[0]
+        reference = rounded_number((piece.number("springref") or 0.0) - ref)
     elif not any(piece.peek_numbers("springref")):
         piece.take("springref")
     if damping is None and friction is None and stiffness is None:

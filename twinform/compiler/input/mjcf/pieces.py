@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from twinform.compiler.input.mjcf.number_lists import Numbers
 from twinform.diagnostics import Location, Source
 from twinform.ir import Element, Pose
-from twinform.ir.transform import Transform, rounded
+from twinform.ir.transform import Transform, rounded, rounded_number
 from twinform.schemas import XmlElement
 from twinform.schemas.xml import children
 
@@ -168,10 +168,10 @@ def pose_of(at: Transform, relative_to: str | None = None, source: Source | None
     if at.is_unturned:
         return Pose.unchecked(xyz=xyz, relative_to=relative_to, source=source)
     quat = _unit(at.notation.quat_xyzw if at.notation and at.notation.quat_xyzw else at.quaternion())
-    x, y, z = rounded(quat[:3])
+    x, y, z, w = map(rounded_number, quat)
     return Pose.unchecked(
         xyz=xyz,
-        quat_xyzw=(x, y, z, rounded((quat[3], 0.0, 0.0))[0]),
+        quat_xyzw=(x, y, z, w),
         rotation_format="quat_xyzw",
         relative_to=relative_to,
         source=source,

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 
 from twinform.diagnostics import Source
 from twinform.ir import Element
-from twinform.ir.transform import Transform, rounded
+from twinform.ir.transform import Transform, rounded, rounded_number
 from twinform.schemas import format_value
 from twinform.schemas.value_types import format_numbers
 
@@ -26,15 +26,20 @@ def make_element(
     name: str, attributes: Attributes = (), children: Iterable[Element] = (), source: Source | None = None
 ) -> Element:
     """Return an element; `source` is where the part was read that it is written for."""
-    written = tuple([(key, attribute_text(value)) for key, value in attributes if value is not None])
-    return Element.unchecked(name=name, attributes=written, children=tuple(children), source=source)
+    # Half of all values are texts, and a call for each of them takes longer.
+    written = [
+        (key, value if isinstance(value, str) else attribute_text(value))
+        for key, value in attributes
+        if value is not None
+    ]
+    return Element.unchecked(name=name, attributes=tuple(written), children=tuple(children), source=source)
 
 
 def attribute_text(value: str | float | bool | tuple[float, ...]) -> str:
     """The text of a value."""
-    if isinstance(value, str):
-        return value
-    return format_numbers(value) if isinstance(value, tuple) else format_value(value)
+    if isinstance(value, tuple):
+        return format_numbers(value)
+    return value if isinstance(value, str) else format_value(value)
 
 
 def numbers_in(text: str | None) -> tuple[float, ...]:
@@ -67,5 +72,4 @@ def orientation(transform: Transform) -> tuple[float, float, float, float]:
         x, y, z, w = (-each if w > 0 else each for each in (x, y, z, w))
     elif w < 0:
         x, y, z, w = -x, -y, -z, -w
-    x, y, z = rounded((x, y, z))
-    return (rounded((w, 0.0, 0.0))[0], x + 0.0, y + 0.0, z + 0.0)
+    return (rounded_number(w), rounded_number(x), rounded_number(y), rounded_number(z))

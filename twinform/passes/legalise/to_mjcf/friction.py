@@ -15,7 +15,7 @@ from math import pi
 from typing import NamedTuple
 
 from twinform.ir import Collision, Element, Opaque, Surface
-from twinform.ir.transform import rounded
+from twinform.ir.transform import rounded_number
 from twinform.passes.legalise.to_mjcf.elements import numbers_in
 from twinform.passes.legalise.to_mjcf.said_parts import child_number, child_text, untyped, without_elements
 from twinform.schemas import format_value
@@ -78,7 +78,7 @@ def _length(torsional: Element | None) -> float:
 
 def torsional_length(radius: float, coefficient: float) -> float:
     """The torsional friction of MuJoCo, in m, for a contact of a radius and the coefficient of SDF."""
-    return rounded((_HERTZ * radius * coefficient, 0.0, 0.0))[0]
+    return rounded_number(_HERTZ * radius * coefficient)
 
 
 def torsional_part(length: float, rest: Element | None = None) -> Opaque:
@@ -86,7 +86,7 @@ def torsional_part(length: float, rest: Element | None = None) -> Opaque:
     factor = child_number(rest, "coefficient", default=1.0)
     if rest is None or factor <= 0.0:  # no radius would make it turn as hard as the file says
         rest, factor = Element.unchecked(name="torsional"), 1.0
-    radius = format_value(rounded((length / _HERTZ / factor, 0.0, 0.0))[0])
+    radius = format_value(rounded_number(length / _HERTZ / factor))
     parts = (Element.unchecked(name="patch_radius", text=radius), *rest.children)
     return Opaque.unchecked(
         at="friction", element=rest.copy(children=tuple(sorted(parts, key=lambda each: _ORDER.index(each.name))))

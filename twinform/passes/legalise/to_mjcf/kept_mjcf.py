@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from pathlib import PurePosixPath
 
 from twinform.ir import Collision, Element, Joint, Node, Visual
-from twinform.ir.transform import rounded
+from twinform.ir.transform import rounded_number
 from twinform.passes.carriers.carriers import KEPT
 from twinform.schemas import format_value
 
@@ -157,5 +157,5 @@ def _counted_from(element: Element) -> Element:
 
 
 def _moved(text: str, by: float) -> str:
-    numbers = [rounded((float(each) + by, 0.0, 0.0))[0] for each in text.split()]
+    numbers = [rounded_number(float(each) + by) for each in text.split()]
     return " ".join(map(format_value, numbers))
