@@ -197,9 +197,8 @@ def _with_normal(node: AnyShape, partial: AnyShape) -> tuple[AnyShape, AnyShape]
     if node.geometry is None or not isinstance(shape, Plane):
         return node, partial
     pose = Transform.from_pose(node.pose).compose(turn_up_to(normal).inverse()).to_pose()
-    is_placed = any((*(pose.xyz or ()), *(pose.rpy or ())))
     plane = node.geometry.copy(shape=shape.copy(normal=normal))
-    return node.copy(geometry=plane, pose=pose if is_placed else None), partial
+    return node.copy(geometry=plane, pose=None if Transform.from_pose(pose).is_identity else pose), partial
 
 
 def _with_type(node: Joint, partial: Joint) -> Joint:
