@@ -77,7 +77,7 @@ class _PartMerging:
         self._world = world and replace_fields(world, lights=back.lights)
         frames = (each for each in nodes_of(texts, "frame") if isinstance(each, Frame))
         self._nested = [each for each in frames if find_annotation(each, PART) is not None]
-        self._merging = Merging(Spellings(root))
+        self._merging = Merging(Spellings(root, sink))
         self._parts = back.parts
         self._loops = [each for each in back.joints if is_loop(each)]
         self._joints = [each for each in back.joints if not is_loop(each)]

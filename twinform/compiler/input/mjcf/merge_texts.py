@@ -49,12 +49,15 @@ from twinform.passes.legalise.to_mjcf.kept_mjcf import KEPT
 from twinform.passes.legalise.to_mjcf.rotors import with_rotors
 from twinform.passes.legalise.to_sdf.restore_frames import RestoreFrames
 from twinform.passes.sdf_versions import change_version, lower_meaning
+from twinform.passes.sdf_versions.put_back import PutBack
 from twinform.passes.sdf_versions.set_version import SetVersion
 from twinform.passes.shared.poses import POSE
 from twinform.schemas import DEFAULT_SDF_VERSION, XmlElement, in_order, parse_version, versions_of
 
 _BEFORE_NAMED_FRAMES = frozenset(each for each in versions_of("sdf") if parse_version(each) < (1, 7))
 """The versions of SDF in which axes and poses name no frames."""
+_WITH_AUTOMATIC = "1.11"
+"""The first version of SDF in which inertias are computed; what they became in MJCF was compared by then."""
 AnyPart = TypeVar("AnyPart", Link, Joint, Frame, Model)
 
 
@@ -84,7 +87,7 @@ class _Merged:
         self.parts = frozenset[tuple[str, str]]()
         self.names: Mapping[str, str] = {}
         self.holds: tuple[Joint, ...] = ()
-        self.spellings = Spellings(root)
+        self.spellings = Spellings(root, sink)
         self.merging = Merging(self.spellings)
         self.links: list[Link] = [each for each in nodes_of(texts, "link") if isinstance(each, Link)]
         self.joints: list[Joint] = [each for each in nodes_of(texts, "joint") if isinstance(each, Joint)]
@@ -313,7 +316,8 @@ class _Merged:
         if version == newest or version not in versions_of("sdf"):
             return document
         # Syntax of newer versions goes back, and only what means something else is rewritten.
-        mixed = (*lower_meaning(version), SetVersion.unchecked(version=version))
+        back = PutBack.unchecked(version=_WITH_AUTOMATIC, source=newest)
+        mixed = (back, *lower_meaning(version), SetVersion.unchecked(version=version))
         for step in mixed if self._is_mixed else change_version(newest, version):
             document = step.run(document, self.sink)
         is_old = not self._is_mixed and version in _BEFORE_NAMED_FRAMES

@@ -8,6 +8,8 @@ import math
 from collections.abc import Collection
 from typing import TypeVar, cast
 
+from twinform.compiler.input.mjcf.carried_texts import report_stale
+from twinform.diagnostics import DiagnosticSink
 from twinform.ir import (
     Axis,
     Collision,
@@ -35,14 +37,26 @@ from twinform.ir.solids import tensor, turned
 from twinform.ir.transform import Transform, rounded
 from twinform.passes.carriers.absorb import CarrierError, absorb
 from twinform.passes.carriers.annotations import CONTINUOUS, find_annotation, without_annotation
-from twinform.passes.carriers.mjcf_texts import AXES, LOOK_OF, NORMAL, SHAPE_OF, TURN, Tagged, digest_of, look_parts
+from twinform.passes.carriers.mjcf_texts import (
+    AXES,
+    LOOK_OF,
+    NORMAL,
+    PARTS,
+    SHAPE_OF,
+    TURN,
+    Tagged,
+    digest_of,
+    look_parts,
+)
 from twinform.passes.carriers.old_names import NAME, source_name
 from twinform.passes.carriers.partial_nodes import written_name
 from twinform.passes.carriers.said_by_mjcf import LIMITED
+from twinform.passes.carriers.sdf_versions import is_version_carrier
 from twinform.passes.carriers.token_mass import UNSAID
 from twinform.passes.legalise.to_mjcf.contact_plan import MASKS
 from twinform.passes.legalise.to_mjcf.friction import friction_of, rolling_of, torsional_part, with_rolling
 from twinform.passes.legalise.to_mjcf.geoms import turn_up_to
+from twinform.passes.legalise.to_mjcf.inertials import weight_parts
 from twinform.passes.legalise.to_mjcf.kept_mjcf import KEPT
 from twinform.passes.legalise.to_mjcf.said_parts import untyped, without_elements
 from twinform.passes.shared.poses import read_vector
@@ -68,8 +82,9 @@ class Spellings:
         agreed: the tags and names of the assets whose looks come back as they were.
     """
 
-    def __init__(self, root: XmlElement) -> None:
+    def __init__(self, root: XmlElement, sink: DiagnosticSink) -> None:
         self.agreed: set[tuple[str, str]] = set()
+        self._sink = sink
         self._geoms = {each.get("name") or "": each for each in root.iter("geom")}
         self._assets = {(str(each.tag), each.get("name")): each for each in root.iterfind("asset/*")}
 
@@ -96,7 +111,7 @@ class Spellings:
         elif isinstance(node, Inertial) and isinstance(partial, Inertial):
             if find_annotation(partial, UNSAID) is not None:  # of a body without mass, as it is read
                 node = without_annotation(node, UNSAID)
-            made = _with_axes(node, partial), without_annotation(partial, AXES)
+            made = _with_axes(node, partial), without_annotation(self._computed(node, partial), AXES)
         return cast("tuple[AnyNode, AnyNode]", made)
 
     def _with_look(self, node: Visual, partial: Visual) -> tuple[Visual, Visual]:
@@ -113,6 +128,20 @@ class Spellings:
             return node.copy(material=None), partial
         self.agreed.update((tag, attributes["name"]) for tag, attributes in parts if "name" in attributes)
         return node.copy(material=None, opaque=_without_attributes(node.opaque, {"material"})), partial
+
+    def _computed(self, node: Inertial, partial: Inertial) -> Inertial:
+        """What is kept of an inertia that was computed, without that if it or its shapes were edited since."""
+        note = find_annotation(partial, PARTS)
+        if note is None:
+            return partial
+        partial = without_annotation(partial, PARTS)
+        geoms = [geom for each in (note.text or "").splitlines() if (geom := self._geoms.get(each.strip())) is not None]
+        if digest_of([weight_parts(node), *(("geom", _attributes(each)) for each in geoms)]) == note.get("digest"):
+            return partial
+        report_stale(
+            self._sink, "the inertia is no longer computed: its numbers or its shapes were edited", node.source
+        )
+        return partial.copy(opaque=tuple(part for part in partial.opaque if not is_version_carrier(part)))
 
     def _with_rolling(self, node: Collision, partial: Collision) -> tuple[Collision, Collision]:
         """The rolling friction of the file in place of that of the source, which has a word of Bullet for it."""

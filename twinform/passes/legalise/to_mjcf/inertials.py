@@ -7,15 +7,17 @@ import math
 from typing import NamedTuple
 
 from twinform.diagnostics import Severity, rules
-from twinform.ir import Element, Link
+from twinform.ir import Element, Inertial, Link
 from twinform.ir.defaults import MASS, MOMENT
 from twinform.ir.document import Format
 from twinform.ir.solids import Symmetric, principal_axes, principal_moments, tensor, turned
 from twinform.ir.transform import Matrix3, Transform
+from twinform.passes.carriers.mjcf_texts import Tagged
 from twinform.passes.carriers.token_mass import TOKEN_MASS, TOKEN_MOMENT, has_token_mass, is_chain_token, says_zero
 from twinform.passes.legalise.to_mjcf.elements import Value, make_element, orientation, position
 from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements, with_kept
 from twinform.passes.legalise.to_mjcf.writing_context import Body, MjcfContext
+from twinform.schemas import format_value
 
 MOST_FOR_NOTHING = 1e-15
 """`mjMINVAL`: MuJoCo takes a mass (kg) or a moment (kg m^2) that is not above it for none."""
@@ -62,6 +64,14 @@ def weight_of(link: Link) -> Weight:
     if inertial.inertia is not None and all(value in (0.0, TOKEN_MOMENT) for value in inertia):
         inertia = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     return Weight(mass, inertia)
+
+
+def weight_parts(inertial: Inertial) -> Tagged:
+    """The mass, center and principal moments of an inertial, for a digest."""
+    center = (inertial.pose and inertial.pose.xyz) or (0.0, 0.0, 0.0)
+    moments = principal_moments(tensor(inertial.inertia, 0.0))
+    numbers = {"mass": (inertial.mass or 0.0,), "center": center, "moments": moments}
+    return "inertial", {name: " ".join(map(format_value, values)) for name, values in numbers.items()}
 
 
 def has_usual_weight(link: Link) -> bool:

@@ -48,7 +48,9 @@ from twinform.passes.carriers.mjcf_texts import (
 )
 from twinform.passes.carriers.partial_nodes import PLACE, WRITTEN
 from twinform.passes.carriers.said_by_mjcf import said_by_mjcf
+from twinform.passes.carriers.sdf_versions import is_version_carrier
 from twinform.passes.legalise.to_mjcf.geoms import UP
+from twinform.passes.legalise.to_mjcf.inertials import weight_parts
 from twinform.passes.legalise.to_mjcf.materials import is_kept_material
 from twinform.passes.legalise.to_mjcf.what_is_said import WhatIsSaid
 from twinform.passes.legalise.to_mjcf.written_file import Shape
@@ -69,7 +71,7 @@ class SpellingNotes:
             Document: self._provenance,
             Visual: self._on_visual,
             Collision: self.on_shape,
-            Inertial: _on_inertial,
+            Inertial: self._on_inertial,
             World: self.on_world,
             Light: self.parts,
             Sensor: lambda sensor: () if said.left_of(sensor) is None else self.parts(sensor),
@@ -133,6 +135,16 @@ class SpellingNotes:
         notes = [annotation(TURN, attributes={"rpy": turn, "xyz": place})] if turn or place else []
         return [*notes, annotation(CONTINUOUS)] if joint.type == "continuous" else notes
 
+    def _on_inertial(self, inertial: Inertial) -> Iterable[Opaque]:
+        """The axes of an inertia; where it was computed, what it and the geoms that it was computed of are."""
+        link = self.file.part
+        if not isinstance(link, Link) or not any(map(is_version_carrier, inertial.opaque)):
+            return _axes(inertial)
+        geoms = [geom for each in link.collisions if (geom := self.file.geom(each)) is not None]
+        digest = digest_of([weight_parts(inertial), *tagged(geoms)])
+        names = "\n".join(each.get("name") or "" for each in geoms)
+        return (*_axes(inertial), annotation(PARTS, names, {"digest": digest}))
+
     def _attached(self, frame: Frame) -> Iterable[Opaque]:
         """What a frame is attached to, if that is not the link that its site is in."""
         body = self.file.graph.body(frame.name, kind="frame")
@@ -187,7 +199,7 @@ class SpellingNotes:
         yield annotation(PARTS, names, {"digest": digest_of(tagged(parts))})
 
 
-def _on_inertial(inertial: Inertial) -> Iterable[Opaque]:
+def _axes(inertial: Inertial) -> Iterable[Opaque]:
     """The axes of an inertia, which MJCF writes in those of the body where it has products."""
     inertia = inertial.inertia
     if inertia is None or inertial.pose is None or not (inertia.ixy or inertia.ixz or inertia.iyz):
