@@ -3,13 +3,13 @@
 What stands in the file always counts. A carrier fills what is open, and gives names, frames and notations back.
 """
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from typing import TypeVar
 
 from twinform.compiler.input.mjcf.carried_texts import CarriedText, are_of_sdf, nodes_of, report_stale, report_unmerged
 from twinform.compiler.input.mjcf.joined_joints import join_joints, sensors_left
 from twinform.compiler.input.mjcf.merge_parts import merge_parts
-from twinform.compiler.input.mjcf.models_of_world import with_models
+from twinform.compiler.input.mjcf.models_of_world import with_models, with_nested
 from twinform.compiler.input.mjcf.names import safe_name
 from twinform.compiler.input.mjcf.one_model import one_model
 from twinform.compiler.input.mjcf.renamed_parts import name_in_file, renamed_parts
@@ -116,12 +116,15 @@ class _Merged:
         model = with_rotors(self._attached(self._merged(self._with_loops(model))))
         model = without_assets(model, self.spellings.agreed)
         report_unmerged(self.sink, self.merging.stale)
-        model = with_models(model) if self._is_of_world else model
+        if self._is_of_world:
+            model = with_models(model)
+        elif not self._is_of_urdf:
+            model = with_nested(model)
         return self._in_version(self._as_document(self._restored(model)))
 
     def _named(self, model: Model) -> Model:
         """The model whose parts have the names that they had before they were written."""
-        named = renamed_parts(model, self.links, self.joints, self.frames)
+        named = renamed_parts(model, self.links, self.joints, self.frames, has_scopes=not self._is_of_urdf)
         self.names = {name_in_file(old): new.name for old, new in zip(model.joints, named.joints, strict=True)}
         return named
 
@@ -182,7 +185,8 @@ class _Merged:
         links = self.merging.merge_all(between, tuple(without_annotation(each, WRITTEN) for each in self.links))
         ends = {WORLD, *(each.name for each in links), *(each.name for each in (*model.frames, *self.frames))}
         joints = self.merging.merge_all(joints, tuple(self._typed(joints, ends)))
-        frames = self.merging.merge_all(model.frames, tuple(without_annotation(each, WRITTEN) for each in self.frames))
+        kept = tuple(without_annotation(each, WRITTEN) for each in self._held_by(ends))
+        frames = self.merging.merge_all(model.frames, kept)
         model = model.copy(links=links, joints=joints, frames=frames)
         if partial is None:
             return self._let_go(model, made)
@@ -209,6 +213,15 @@ class _Merged:
                 self._stale(f"another joint holds what joint {each.name!r} held", each)
             else:
                 self._stale(f"there is nothing any more that joint {each.name!r} holds", each)
+
+    def _held_by(self, there: Collection[str]) -> Iterable[Frame]:
+        """The partial frames, without those of no site that were attached to what is not there any more."""
+        for each in self.frames:
+            if is_rest(each) or each.attached_to is None or each.attached_to in there:
+                yield each
+            else:
+                message = f"there is no {each.attached_to!r} any more, to which the frame {each.name!r} was attached"
+                self._stale(message, each)
 
     def _let_go(self, model: Model, made: frozenset[str], *, is_static: bool = False) -> Model:
         """The model without joints that only say that it is fixed to the world, where something else says so."""
@@ -274,6 +287,11 @@ class _Merged:
     def _is_of_world(self) -> bool:
         """Whether the model stands for a world, or for several models beside each other."""
         return self.world is not None or self._are_several
+
+    @property
+    def _is_of_urdf(self) -> bool:
+        """Whether the source was a URDF, where `::` means nothing."""
+        return any(came_from(each, Format.URDF) for each in nodes_of(self.texts, "model") if isinstance(each, Model))
 
     @property
     def _are_several(self) -> bool:

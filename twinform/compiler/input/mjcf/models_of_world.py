@@ -1,14 +1,14 @@
 """Models for links that belong to none: a world of SDF holds no links, and bodies are added and renamed at will.
 
 What bodies of MJCF are called tells which model they are in: `arm::hand` is the link `hand` in the model `arm`. A body
-of any other name, with what joints connect to it, is a model of its own, which is called after it.
+of any other name, with what joints connect to it, is a model of its own in a world, which is called after it.
 """
 
 from collections.abc import Iterator
 
 from twinform.ir import Element, Format, Frame, Joint, Model, Opaque
 from twinform.ir.frames import WORLD
-from twinform.ir.scopes import SCOPE
+from twinform.ir.scopes import SCOPE, scopes_of
 from twinform.passes.carriers.annotations import MADE_NAME, annotation, find_annotation
 from twinform.passes.legalise.changed_names import Names, renamed
 from twinform.passes.shared.nodes import unique_name
@@ -35,13 +35,15 @@ def with_models(model: Model) -> Model:
         }
         frames.append(_frame_of(name, name + SCOPE + links[0], is_made=True))
     model = renamed(model, names, Format.SDF) if names else model
-    known = {each.name for each in (*model.frames, *frames)}
-    for link in model.links:
-        name = _top(link.name)
-        if name not in known:
-            frames.append(_frame_of(name, link.name, is_made=False))
-            known.add(name)
-    return model.copy(frames=(*model.frames, *frames)) if frames else model
+    return with_nested(model.copy(frames=(*model.frames, *frames)) if frames else model)
+
+
+def with_nested(model: Model) -> Model:
+    """The model with a frame for each model in it that only names tell of, where the first link of that is."""
+    known = {each.name for each in model.frames}
+    first = {scope: each.name for each in reversed(model.links) for scope in scopes_of(each.name)}
+    frames = tuple(_frame_of(name, link, is_made=False) for name, link in first.items() if name not in known)
+    return model.copy(frames=(*model.frames, *reversed(frames))) if frames else model
 
 
 def _top(name: str) -> str:

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from twinform.ir import Format, Frame, Joint, Link, Model, replace_fields
-from twinform.ir.scopes import SCOPE
+from twinform.ir.scopes import SCOPE, scopes_of
 from twinform.passes.carriers.annotations import MADE_NAME, find_annotation, is_synthesized, without_annotation
 from twinform.passes.carriers.mjcf_texts import LOOP
 from twinform.passes.carriers.old_names import NAME
@@ -17,13 +17,19 @@ Node = Link | Joint | Frame
 _FIELDS: tuple[tuple[Part, str], ...] = (("link", "links"), ("joint", "joints"), ("frame", "frames"))
 
 
-def renamed_parts(model: Model, links: Sequence[Link], joints: Sequence[Joint], frames: Sequence[Frame]) -> Model:
+def renamed_parts(
+    model: Model, links: Sequence[Link], joints: Sequence[Joint], frames: Sequence[Frame], *, has_scopes: bool
+) -> Model:
     """The model with the names of its partial nodes, and otherwise those of the file.
+
+    With `has_scopes`, what a body is called tells which model in the model it is in.
 
     A joint that is fixed, and a link between two joints of one body, have no names there: they are known by what they
     hold, and by what holds them.
     """
     scopes = {each.name for each in frames if find_annotation(each, NESTED) is not None}
+    if has_scopes:
+        scopes.update(scope for each in model.links for scope in scopes_of(name_in_file(each)))
     names: Names = {}
     free: list[tuple[Part, Node]] = []
     for (part, field), partials in zip(_FIELDS, (links, joints, frames), strict=True):
