@@ -33,8 +33,10 @@ def test_it_comes_home_from_mjcf(path: Path) -> None:
     """A world does so as a whole."""
     document = twinform.load(path)
     trip = RoundTrip(path.read_bytes(), document.format, document.version)
-    there = twinform.convert(path, to="mjcf").text
-    assert list(trip.mismatches(trip.back(there))) == []
+    there = twinform.convert(path, to="mjcf")
+    assert list(trip.mismatches(trip.back(there.text))) == []
+    assert there.source is not None
+    assert audit(there.source, there.text, there.ledger).unaccounted == ()
 
 
 @pytest.mark.parametrize("path", [*ROUND_TRIPS, *ACCEPTED], ids=_name)

@@ -15,7 +15,8 @@ _ABOUT = """\
 Every URDF and SDF file of the corpus is converted to MJCF and back, a world as a whole, to the version of the source.
 *Home* means what it means [above](#what-the-compiler-makes-of-real-files): it is the same robot by `twinform diff`, and
 every name, attribute and text that is not the spelling of a default is back, and nothing else has come along. A file
-with includes comes back without them: of that, each of its first robots is a text of its own, and counted."""
+with includes comes back without them: of that, each of its first robots is a text of its own, and counted. Lost is also
+what `convert --audit` finds neither in the MJCF nor in the ledger."""
 
 
 def measure(sample: Sample) -> Findings:

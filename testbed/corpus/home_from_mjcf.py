@@ -7,6 +7,7 @@ import twinform
 from testbed.corpus.examine import fault, first_error, rules_of
 from testbed.corpus.files import CorpusFile
 from testbed.corpus.there_and_back import MOST_ROBOTS
+from twinform.compiler.audit import audit
 from twinform.ir import Document
 from twinform.passes.includes.expand import has_includes
 from twinform.passes.shared.candidates import candidates
@@ -19,7 +20,7 @@ _XACRO = b"$("
 class Home:
     """What became of a file, or of one robot of a world with includes.
 
-    `refused_by` are the rules of the errors that MJCF cannot be written for, and `lost` is what did not come back.
+    `refused_by` are the rules of the errors that MJCF cannot be written for, and `lost` is what did not come back, or is not accounted for.
     """
 
     name: str
@@ -48,7 +49,14 @@ def _home(file: CorpusFile, document: Document, robot: str | None) -> Home:
         there = twinform.convert(file.path, to="mjcf", model=robot, paths=file.paths)
     except twinform.CompileError as error:
         return Home(name, refused_by=rules_of(error.diagnostics))
-    return Home(name, lost=tuple(_lost(_trip(file, document, robot), there.text)))
+    return Home(name, lost=(*_unaccounted(there), *_lost(_trip(file, document, robot), there.text)))
+
+
+def _unaccounted(there: twinform.Conversion) -> Iterator[Mismatch]:
+    """What an audit finds neither in the MJCF nor in the ledger."""
+    assert there.source is not None
+    for part in audit(there.source, there.text, there.ledger).unaccounted:
+        yield Mismatch("unaccounted", part.location.path, f"line {part.location.line}: {part.text}")
 
 
 def _trip(file: CorpusFile, document: Document, robot: str | None) -> RoundTrip:

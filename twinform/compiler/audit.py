@@ -376,11 +376,13 @@ def _is_synthesized_number(element: XmlElement, attribute: str | None) -> bool:
         return is_token or holder.find(_COMPUTED_MASS) is not None
     if element.tag == "mimic":
         return attribute == "offset" and holder.find(_MIMIC) is not None
+    if element.tag in {"lower", "upper"}:
+        return holder.tag == "limit" and _is_no_limit(element.text or "")
     return element.tag == "limit" and attribute is not None and _is_no_limit(element.get(attribute, ""))
 
 
 def _is_no_limit(number: str) -> bool:
-    """Whether a limit of URDF is so large that it means none, which SDF need not write."""
+    """Whether a limit is so large that it means none, which neither SDF nor MJCF need write."""
     try:
         return abs(float(number)) >= UNLIMITED
     except ValueError:

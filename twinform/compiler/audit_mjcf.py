@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 
+from twinform.ir.frames import MODEL
 from twinform.passes.carriers.mjcf_texts import parse_data, parse_text_name
 from twinform.passes.legalise.to_mjcf.friction import TORSIONAL_CONDIM, torsional_length
 from twinform.schemas import XmlElement
@@ -13,8 +14,8 @@ KINDS = {
     "free": ("floating", "free", "model"),
 }
 """Types of joints in MJCF, each with those of URDF and SDF that it stands for; what SDF leaves free has no joint."""
-_IMPLIED = {("worldbody", ""): ("world", "fixed"), **{("joint", name): kinds for name, kinds in KINDS.items()}}
-"""Words that an element of MJCF stands for, by its name and type: a body in a body is fixed to it."""
+_IMPLIED = {("worldbody", ""): ("world", "fixed", MODEL), **{("joint", name): kinds for name, kinds in KINDS.items()}}
+"""Words that an element of MJCF stands for, by its name and type: a body in a body is fixed to it, and placed in it."""
 _OF_TORSION = (("patch_radius", "0"), ("coefficient", "1"))
 _WITH_HALF_SIZES = frozenset({"geom", "hfield"})
 COMPUTED = frozenset(
