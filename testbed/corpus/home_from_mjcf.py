@@ -20,8 +20,8 @@ _XACRO = b"$("
 class Home:
     """What became of a file, or of one robot of a world with includes.
 
-    `refused_by` are the rules of the errors that MJCF cannot be written for, and `lost` is what did not come back, or is
-    not accounted for.
+    `refused_by` are the rules of the errors that MJCF cannot be written for, and `lost` is what did not come back, or
+    is not accounted for.
     """
 
     name: str
