@@ -73,6 +73,7 @@ _ALIKE: tuple[frozenset[JointType], ...] = (
     frozenset({"ball", "spherical"}),
 )
 """Types of joints that are the same in MJCF."""
+_UNDIRECTED = frozenset({"ball", "spherical"})
 
 
 class Spellings:
@@ -101,7 +102,7 @@ class Spellings:
             made = _with_torsion(*_with_second_coefficient(node, partial))
         elif isinstance(node, Joint) and isinstance(partial, Joint):
             kept = without_annotation(_without_position(node, partial), TURN, CONTINUOUS)
-            made = _with_turn(_with_type(node, partial), partial), kept
+            made = _with_turn(_without_made_axis(_with_type(node, partial), partial), partial), kept
         elif isinstance(node, Mimic) and isinstance(partial, Mimic):
             made = _with_reference(node, partial)
         elif isinstance(node, Limit) and isinstance(partial, Limit):
@@ -239,6 +240,13 @@ def _with_type(node: Joint, partial: Joint) -> Joint:
     if partial.type == "continuous" and is_limited:
         return node
     return node.copy(type=partial.type)
+
+
+def _without_made_axis(node: Joint, partial: Joint) -> Joint:
+    """The joint without the direction that a ball was given with its damping, where the source has one."""
+    if node.type not in _UNDIRECTED or node.axis is None or partial.axis is None or partial.axis.xyz is None:
+        return node
+    return node.copy(axis=node.axis.copy(xyz=None))
 
 
 def _without_position(node: Joint, partial: Joint) -> Joint:
