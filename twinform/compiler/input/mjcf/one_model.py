@@ -31,12 +31,10 @@ def one_model(document: Document, name: str) -> Model:
     frames: list[Frame] = [*(world.frames if world else ())]
     opaque: list[Opaque] = [*document.opaque]
     for each in models:
-        children = {joint.child for joint in each.joints if joint.parent != WORLD}
-        roots = [link for link in each.links if link.name not in children]
         links += [_placed(link, each.pose) for link in each.links]
         if each.static:
-            above = {joint.child for joint in each.joints}  # a root may hang from the world
-            joints += [_held(link, taken) for link in roots if link.name not in above]
+            above = {joint.child for joint in each.joints if joint.parent == WORLD}
+            joints += [_held(link, taken) for link in each.links if _is_root(link) and link.name not in above]
         joints += each.joints
         frames += each.frames
         opaque += without_annotation(each, NAME, MADE_NAME).opaque
@@ -71,9 +69,14 @@ def _with_shapes_apart(link: Link) -> Link:
     return link.copy(visuals=tuple(each for each in link.visuals if find_annotation(each, SAME_GEOM) is None))
 
 
+def _is_root(link: Link) -> bool:
+    """Whether a link stands in no other one: joints do not tell, as some of them close loops."""
+    return link.pose is None or not link.pose.relative_to
+
+
 def _placed(link: Link, at: Pose | None) -> Link:
     """A link of a model that has a pose, in the world; most links are posed in that of the body around them."""
-    if at is None or (link.pose is not None and link.pose.relative_to):
+    if at is None or not _is_root(link):
         return link
     placed = Transform.from_pose(_in_rpy(at)).compose(Transform.from_pose(link.pose and _in_rpy(link.pose)))
     return link.copy(pose=placed.to_pose())
