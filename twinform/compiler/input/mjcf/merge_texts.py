@@ -47,6 +47,7 @@ from twinform.passes.legalise.changed_names import RestoreNames
 from twinform.passes.legalise.nested_models import NameScopes, RestoreNested
 from twinform.passes.legalise.to_mjcf.kept_mjcf import KEPT
 from twinform.passes.legalise.to_mjcf.rotors import with_rotors
+from twinform.passes.legalise.to_sdf.joint_types import FLOATING
 from twinform.passes.legalise.to_sdf.restore_frames import RestoreFrames
 from twinform.passes.sdf_versions import change_version, lower_meaning
 from twinform.passes.sdf_versions.put_back import PutBack
@@ -361,9 +362,9 @@ def _with_first_link(model: Model) -> Model:
 
 
 def _roots(model: Model) -> set[str]:
-    """The links that no other link holds."""
+    """The links that no other link holds, and that no joint of URDF leaves free."""
     held = {each.child for each in model.joints if each.parent != WORLD}
-    return {each.name for each in model.links if each.name not in held}
+    return {each.name for each in model.links if each.name not in held and find_annotation(each, FLOATING) is None}
 
 
 def _without_holds(model: Model) -> Model:
