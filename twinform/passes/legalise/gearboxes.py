@@ -67,6 +67,10 @@ _CLOSE = 1e-9
 """How far multipliers may be apart that were made from one ratio."""
 
 
+_OF_ONE_AXIS = frozenset({"revolute", "continuous", "prismatic"})
+"""The types of joints that MJCF couples."""
+
+
 class FoldGearboxes(ModelPass):
     """Take away the mimics that were synthesized for gearboxes in the conversion to URDF.
 
@@ -102,6 +106,37 @@ class FoldGearboxes(ModelPass):
             for joint in annotated
         }
         return model.copy(joints=tuple(kept.get(joint.name, joint) for joint in model.joints))
+
+
+def without_their_mimics(model: Model, sink: DiagnosticSink) -> Model:
+    """The model without the mimics that MJCF has for gearboxes, and without gearboxes for which it has none any more.
+
+    Diagnostics: `stale-carrier`.
+    """
+    gears = [joint for joint in model.joints if joint.type == "gearbox"]
+    if not gears:
+        return model
+    graph = FrameGraph(model)
+    bare = {joint.name: _without_mimic(joint) for joint in model.joints if joint.type != "gearbox"}
+    joints = {joint.name: joint for joint in model.joints}
+    for gearbox in gears:
+        try:
+            found = relation(gearbox, bare, graph)
+        except (UngearedError, FrameError):
+            continue
+        follower, leader = joints[found.follower], bare[found.leader]
+        if not {follower.type, leader.type} <= _OF_ONE_AXIS:
+            continue
+        mimic = follower.axis.mimic if follower.axis else None
+        if mimic and _is_the_same(mimic, Mimic.unchecked(joint=found.leader, multiplier=found.multiplier)):
+            joints[found.follower] = bare[found.follower]
+        else:
+            message = (
+                f"joint {found.follower!r} does not follow {found.leader!r} any more as gearbox {gearbox.name!r} says"
+            )
+            sink.report(rules.STALE_CARRIER, message, gearbox.location, found=gearbox.name)
+            del joints[gearbox.name]
+    return model.copy(joints=tuple(joints.values()))
 
 
 def _without_mimic(joint: Joint) -> Joint:

@@ -44,6 +44,7 @@ from twinform.passes.carriers.mjcf_texts import ATTACHED, DOCUMENT, PREFIXES, SE
 from twinform.passes.carriers.partial_nodes import WRITTEN, Merging, is_rest, written_names
 from twinform.passes.carriers.token_mass import UNSAID, restore_inertial, says_zero
 from twinform.passes.legalise.changed_names import RestoreNames
+from twinform.passes.legalise.gearboxes import without_their_mimics
 from twinform.passes.legalise.nested_models import NameScopes, RestoreNested
 from twinform.passes.legalise.to_mjcf.kept_mjcf import KEPT
 from twinform.passes.legalise.to_mjcf.rotors import with_rotors
@@ -121,7 +122,10 @@ class _Merged:
             model = with_models(model)
         elif not self._is_of_urdf:
             model = with_nested(model)
-        return self._in_version(self._as_document(self._restored(model)))
+        document = self._as_document(self._restored(model))
+        if any(each.type == "gearbox" for each in self.joints):
+            document = rewrite(document, Model, lambda each: without_their_mimics(each, self.sink))
+        return self._in_version(document)
 
     def _named(self, model: Model) -> Model:
         """The model whose parts have the names that they had before they were written."""
