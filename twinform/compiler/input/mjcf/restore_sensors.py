@@ -6,7 +6,7 @@ from typing import NamedTuple, TypeVar
 from twinform.compiler.input.mjcf.carried_texts import report_stale
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Element, Frame, Joint, Light, Link, Model, Node, Opaque, Sensor, World, replace_fields, rewrite
-from twinform.passes.carriers.annotations import find_annotation, without_annotation
+from twinform.passes.carriers.annotations import WORLDBODY, find_annotation, without_annotation
 from twinform.passes.carriers.mjcf_texts import PARTS, digest_of
 from twinform.passes.carriers.old_names import NAME
 from twinform.passes.carriers.partial_nodes import REST, written_name, written_names
@@ -81,7 +81,9 @@ def sensors_back(
 
     def of_link(link: Link) -> Link:
         body = bodies[link.name]
-        if body not in there and ("body", body) not in elements:
+        if body == WORLDBODY and ("body", body) not in elements:
+            body = None  # what stands in the world itself
+        elif body not in there and ("body", body) not in elements:
             return replace_fields(link, sensors=(), lights=())
         return replace_fields(link, sensors=kept(link.sensors, body), lights=kept(link.lights, body))
 

@@ -175,10 +175,13 @@ class AddedTexts(TextList):
             has_geom = self.file.geom_name(collision) is not None
             return _as_mjcf_has_collision(collision, has_masks=has_masks) if has_geom else collision
 
+        lights = (left for each in link.lights if (left := unread_light(each)) is not None)
+        # What stands in the world itself is read as no part of the link of its shapes.
+        is_of_world = self.context.written_bodies.get(link.name) == WORLD
         return link.copy(
             collisions=tuple(map(left_of, link.collisions)),
-            sensors=_unread_sensors(link.sensors, self.context),
-            lights=tuple(left for each in link.lights if (left := unread_light(each)) is not None),
+            sensors=link.sensors if is_of_world else _unread_sensors(link.sensors, self.context),
+            lights=link.lights if is_of_world else tuple(lights),
             inertial=None if weight_of(link).is_nothing else link.inertial,
             kinematic=None if link.name in self.context.mocap else link.kinematic,
         )
