@@ -74,7 +74,12 @@ def _greatest_force(actuator: Actuator) -> float | None:
     """Return the greatest force of an actuator: of its own limit, or of a motor at the end of its control range."""
     gear = abs(next(iter(numbers_in(actuator.get("gear"))), 1.0))
     if counts(actuator.get, "forcelimited", "forcerange"):
-        return gear * max(map(abs, numbers_in(actuator.get("forcerange"))))
+        return gear * _greatest(actuator.get("forcerange"))
     if actuator.tag == "motor" and counts(actuator.get, "ctrllimited", "ctrlrange"):
-        return gear * max(map(abs, numbers_in(actuator.get("ctrlrange"))))
+        return gear * _greatest(actuator.get("ctrlrange"))
     return None
+
+
+def _greatest(range_: str | None) -> float:
+    """Return the greater end of a range; 0 where none is written, which MuJoCo refuses if it is said to limit."""
+    return max(map(abs, numbers_in(range_)), default=0.0)
