@@ -31,7 +31,7 @@ from twinform.passes.legalise.to_mjcf.contacts import touch_of
 from twinform.passes.legalise.to_mjcf.elements import ENDLESS, GRID, Attributes, Value, make_element, placement
 from twinform.passes.legalise.to_mjcf.fitted_geoms import fitted_mesh, geom_size, without_mesh
 from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements, kept_of_geom, with_kept
-from twinform.passes.legalise.to_mjcf.looks import has_look
+from twinform.passes.legalise.to_mjcf.looks import has_look, look
 from twinform.passes.legalise.to_mjcf.materials import look_of, with_known_material
 from twinform.passes.legalise.to_mjcf.said_parts import without_elements
 from twinform.passes.legalise.to_mjcf.writing_context import Body, MjcfContext
@@ -97,7 +97,9 @@ def geom_elements(context: MjcfContext, body: Body) -> list[Element]:
 
 
 def _is_one_geom(twin: Visual, collision: Collision) -> bool:
-    return (twin.geometry, twin.pose) == (collision.geometry, collision.pose)
+    """Whether a visual is still one geom with a collision: one that is wholly transparent is read as no visual."""
+    *_, alpha = look(twin).rgba or (1.0,)
+    return (twin.geometry, twin.pose) == (collision.geometry, collision.pose) and alpha > 0.0
 
 
 def _with_hidden_alone(context: MjcfContext, body: Body, geoms: list[Element]) -> list[Element]:
