@@ -212,3 +212,14 @@ def test_a_model_that_was_a_urdf_between_still_floats_in_mjcf() -> None:
     there = convert(urdf.encode(), to="mjcf").text
     assert "<freejoint/>" in there
     assert convert(there.encode(), to="urdf").text == urdf
+
+
+def test_a_link_that_was_set_free_and_fixed_again_does_not_float() -> None:
+    inertial = '<inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/>'
+    wall = f'<mujoco model="wall"><worldbody><body name="wall">{inertial}</body></worldbody></mujoco>'
+    robot = convert(wall.encode(), to="urdf").text.replace('type="fixed"', 'type="floating"')
+    free = convert(robot.encode(), to="mjcf").text
+    assert "<freejoint/>" in free
+    back = convert(free.replace("<freejoint/>", "").encode(), to="urdf")
+    assert 'type="floating"' not in back.text
+    assert [each.rule.name for each in back.diagnostics] == ["stale-carrier"]

@@ -36,6 +36,7 @@ from twinform.passes.carriers.mjcf_texts import PART
 from twinform.passes.carriers.partial_nodes import WRITTEN, Merging, is_rest, written_name, written_names
 from twinform.passes.legalise.changed_names import fixed_joint_name
 from twinform.passes.legalise.to_mjcf.bodies import is_of_world
+from twinform.passes.legalise.to_sdf.joint_types import FLOATING
 from twinform.schemas import XmlElement
 
 AnyPart = TypeVar("AnyPart", Link, Joint, Frame, Model)
@@ -120,9 +121,23 @@ class _PartMerging:
             joints=(*(self._merged_joint(each, fixed, chains) for each in model.joints), *holds),
             frames=tuple(map(self._merged, model.frames)),
         )
+        if model.static:
+            whole = self._without_floating(whole)
         if find_annotation(model, MADE_NAME) is None and is_of_world(whole):  # a body has its name in the file
             whole = without_annotation(whole, MADE_NAME)
         return nested_back(whole, nested, bodies, self.sink) if nested else whole
+
+    def _without_floating(self, model: Model) -> Model:
+        """A model in which nothing moves, without the floating joints of URDF that left its links free."""
+
+        def held(link: Link) -> Link:
+            if (found := find_annotation(link, FLOATING)) is None:
+                return link
+            message = f"joint {found.get('joint')!r} left link {link.name!r} free, which is fixed in the file"
+            report_stale(self.sink, message, link.source)
+            return without_annotation(link, FLOATING)
+
+        return model.copy(links=tuple(map(held, model.links)))
 
     def in_document(self, document: Document) -> Document:
         """The document whose world has what a carrier holds of it; it is called as the file is."""
