@@ -336,12 +336,12 @@ class _Merged:
         newest = versions_of("sdf")[-1]
         is_robot = any(came_from(each, Format.URDF) for each in document.models)
         version = DEFAULT_SDF_VERSION if is_robot else self._source_version or DEFAULT_SDF_VERSION
-        if version == newest or version not in versions_of("sdf"):
+        if version not in versions_of("sdf"):
             return document
         # Syntax of newer versions goes back, and only what means something else is rewritten.
         back = PutBack.unchecked(version=_WITH_AUTOMATIC, source=newest)
         mixed = (back, *lower_meaning(version), SetVersion.unchecked(version=version))
-        for step in mixed if self._is_mixed else change_version(newest, version):
+        for step in mixed if self._is_mixed or version == newest else change_version(newest, version):
             document = step.run(document, self.sink)
         is_old = not self._is_mixed and version in _BEFORE_NAMED_FRAMES
         return rewrite(document, Model, self._with_old_names) if is_old else document

@@ -58,7 +58,7 @@ from twinform.passes.legalise.to_mjcf.friction import friction_of, rolling_of, t
 from twinform.passes.legalise.to_mjcf.geoms import turn_up_to
 from twinform.passes.legalise.to_mjcf.inertials import weight_parts
 from twinform.passes.legalise.to_mjcf.kept_mjcf import KEPT
-from twinform.passes.legalise.to_mjcf.said_parts import untyped, without_elements
+from twinform.passes.legalise.to_mjcf.said_parts import child_number, untyped, without_elements
 from twinform.passes.shared.poses import read_vector
 from twinform.schemas import XmlElement
 
@@ -73,6 +73,7 @@ _ALIKE: tuple[frozenset[JointType], ...] = (
     frozenset({"ball", "spherical"}),
 )
 """Types of joints that are the same in MJCF."""
+_DIGITS = 12
 _UNDIRECTED = frozenset({"ball", "spherical"})
 
 
@@ -94,7 +95,7 @@ class Spellings:
         made: tuple[Node, Node] = (node, partial)
         if isinstance(node, Visual) and isinstance(partial, Visual):
             made = self._with_look(*_with_shape(node, partial))
-            made = _without_name_of_file(*made)
+            made = _without_name_of_file(*_with_transparency(*made))
         elif isinstance(node, Collision) and isinstance(partial, Collision):
             made = self._with_rolling(*_with_shape(node, partial))
             made = _without_name_of_file(*made)
@@ -155,6 +156,20 @@ class Spellings:
     def _asset(self, tag: str, name: str) -> list[Tagged]:
         found = self._assets.get((tag, name))
         return [] if found is None else [(str(each.tag), _attributes(each)) for each in found.iter()]
+
+
+def _with_transparency(node: Visual, partial: Visual) -> tuple[Visual, Visual]:
+    """The color as it is without the transparency of the visual, which MJCF has in it; an edit may have taken that."""
+    through = untyped(partial, "transparency")
+    material = node.material
+    if through is None or material is None or material.diffuse is None or partial.material is not None:
+        return node, partial
+    *color, opacity = material.diffuse
+    share = 1.0 - child_number(through, default=0.0)
+    if not 0.0 < opacity <= share * (1.0 + _CLOSE):
+        return node, without_elements(partial, {"transparency"})
+    made = (*color, round(opacity / share, _DIGITS))
+    return node.copy(material=material.copy(ambient=material.ambient and made, diffuse=made)), partial
 
 
 def _without_name_of_file(node: Node, partial: Node) -> tuple[Node, Node]:
