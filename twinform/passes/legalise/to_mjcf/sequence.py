@@ -67,7 +67,7 @@ def _robot_on_the_world(version: str, requested: Requested, *, mixed: bool) -> I
     for each in to_sdf(version, requested, mixed_source=mixed):
         match each:
             case MeshUris():
-                continue  # files are looked up, as the URDF names them
+                yield MeshUris.unchecked(carriers=each.carriers, rewrites=False)
             case UniqueNames():
                 yield UniqueNames.unchecked(silent=True)  # names of MJCF are unique per kind, as in URDF
             case WorldLink():

@@ -23,19 +23,23 @@ class MeshUris(ModelPass):
 
     name: ClassVar[str] = "mesh-uris"
     carriers: bool = True
+    rewrites: bool = True
+    """Whether URIs are changed, and not only annotated, as for MJCF: files are looked up as the URDF names them."""
 
     def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
         """The model with URIs that Gazebo resolves."""
         annotations = self.carriers and not came_from(model, Format.SDF)
-        return model.copy(links=tuple([_UriWriter(sink, annotations).link(link) for link in model.links]))
+        writer = _UriWriter(sink, annotations, self.rewrites)
+        return model.copy(links=tuple(map(writer.link, model.links)))
 
 
 @dataclass(frozen=True, slots=True)
 class _UriWriter:
-    """One run over the links; `annotations`: whether the scheme of a URI is to be annotated."""
+    """One run over the links: whether the scheme of a URI is annotated, and whether it is rewritten."""
 
     sink: DiagnosticSink
     annotations: bool
+    rewrites: bool
 
     def link(self, link: Link) -> Link:
         visuals, collisions = tuple(map(self._visual, link.visuals)), tuple(map(self._shape, link.collisions))
@@ -66,10 +70,13 @@ class _UriWriter:
         if scheme_of(written) not in {ROS, GAZEBO}:
             return without_annotation(shape, kind), written
         annotation = find_annotation(shape, kind)
+        if annotation is not None and not self.rewrites:
+            return shape, written
         if annotation is not None:
             bare = without_annotation(shape, kind)
             return bare, written if annotation.get("scheme") == scheme_of(written) == ROS else model_uri(written)[0]
         uri, lost = model_uri(written)
         if not lost:
             return shape, uri
-        return (with_annotation(shape, kind, attributes={"scheme": GAZEBO}) if self.annotations else shape), uri
+        shape = with_annotation(shape, kind, attributes={"scheme": GAZEBO}) if self.annotations else shape
+        return shape, uri if self.rewrites else written
