@@ -251,6 +251,8 @@ class FrameGraph:
         if start.parent is base:
             return self._local(start).compose(_IDENTITY)
         self._settle(base)
+        if base.parent is start:  # as a link whose joint is posed in its parent
+            return self._local(base).inverse().compose(_IDENTITY)
         in_common, base_in_common = _IDENTITY, _IDENTITY
         first, second = start, base
         for _ in range(_NEAR):

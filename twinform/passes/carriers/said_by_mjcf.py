@@ -5,6 +5,7 @@ such as for a cone; then the whole node is carried.
 """
 
 from collections.abc import Callable, Mapping
+from typing import Any
 
 from twinform.ir import (
     Axis,
@@ -69,29 +70,26 @@ def _is_reversed(limit: Limit) -> bool:
     return limit.lower is not None and limit.upper is not None and limit.lower > limit.upper
 
 
-def _of_link(node: Node) -> frozenset[str]:
-    return _WEIGHTLESS if isinstance(node, Link) and node.gravity is False else _PLACED
+def _of_link(node: Link) -> frozenset[str]:
+    return _WEIGHTLESS if node.gravity is False else _PLACED
 
 
-def _of_shape(node: Node) -> frozenset[str] | None:
-    return _PLACED if isinstance(node, Visual | Collision) and node.geometry else None
+def _of_shape(node: Visual | Collision) -> frozenset[str] | None:
+    return _PLACED if node.geometry else None
 
 
-def _of_geometry(node: Node) -> frozenset[str] | None:
+def _of_geometry(node: Geometry) -> frozenset[str]:
     """Whether a shape is one of MJCF; what a mesh stands for is restored by a note on the visual or collision."""
-    shape = node.shape if isinstance(node, Geometry) else None
-    return _NONE if shape is None or type(shape) in _SHAPES else _SHAPE
+    return _NONE if node.shape is None or type(node.shape) in _SHAPES else _SHAPE
 
 
-def _of_inertial(node: Node) -> frozenset[str] | None:
-    if not isinstance(node, Inertial) or node.auto or is_token(node) or is_chain_token(node):
-        return None
-    return _MASS
+def _of_inertial(node: Inertial) -> frozenset[str] | None:
+    return None if node.auto or is_token(node) or is_chain_token(node) else _MASS
 
 
-def _of_material(node: Node) -> frozenset[str] | None:
+def _of_material(node: Material) -> frozenset[str] | None:
     """Whether a material is a color and no more; any other one is taken whole while the file shows the same look."""
-    color = node.diffuse if isinstance(node, Material) else None
+    color = node.diffuse
     if color is None or len(color) != _WITH_ALPHA or not all(0.0 <= part <= 1.0 for part in color):
         return None
     return _COLORS if node == Material.unchecked(ambient=color, diffuse=color) else None
@@ -100,23 +98,17 @@ def _of_material(node: Node) -> frozenset[str] | None:
 _WITH_ALPHA = 4
 
 
-def _of_joint(node: Node) -> frozenset[str] | None:
-    if not isinstance(node, Joint):
-        return None
-    if node.type == "fixed":  # a body in a body, without a joint that could have a name
-        return _FIXED
-    return _HELD
+def _of_joint(node: Joint) -> frozenset[str]:
+    return _FIXED if node.type == "fixed" else _HELD  # a body in a body, without a joint that could have a name
 
 
-def _of_mimic(node: Node) -> frozenset[str] | None:
+def _of_mimic(node: Mimic) -> frozenset[str] | None:
     """Whether a mimic is a polynomial as it is; one with a reference is taken whole while it agrees with that."""
-    has_reference = isinstance(node, Mimic) and bool(node.reference)
-    return None if has_reference else _POLYNOMIAL
+    return None if node.reference else _POLYNOMIAL
 
 
-def _of_dynamics(node: Node) -> frozenset[str] | None:
-    has_spring = isinstance(node, Dynamics) and bool(node.spring_stiffness)
-    return _SPRING if has_spring else _DAMPING
+def _of_dynamics(node: Dynamics) -> frozenset[str]:
+    return _SPRING if node.spring_stiffness else _DAMPING
 
 
 def _fields(names: str) -> frozenset[str]:
@@ -143,7 +135,7 @@ _SHAPES: Mapping[type[Node], frozenset[str]] = {
     Plane: _fields("normal size"),
     Sphere: _fields("radius"),
 }
-_SAID: Mapping[type[Node], frozenset[str] | Callable[[Node], frozenset[str] | None]] = {
+_SAID: Mapping[type[Node], frozenset[str] | Callable[[Any], frozenset[str] | None]] = {
     **_SHAPES,
     Model: _fields("name pose links joints frames models"),
     World: _fields("name gravity models joints frames"),

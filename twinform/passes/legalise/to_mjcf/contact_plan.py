@@ -237,6 +237,8 @@ def _has_shape(collision: Collision) -> bool:
 
 def _kept_bits(collision: Collision) -> Bits | None:
     """The bits that a collision keeps of the geom of MJCF that it was read from."""
+    if not collision.opaque:
+        return None
     kept = {name: value for each in kept_elements(collision) if each.name == "geom" for name, value in each.attributes}
     if not kept.keys() & set(Bits._fields):
         return None

@@ -39,6 +39,8 @@ def _bits(context: MjcfContext, body: Body, collision: Collision) -> Iterator[tu
 
 def _friction(context: MjcfContext, collision: Collision) -> Iterator[tuple[str, Value]]:
     """Yield the friction, for how many directions it is, and the priority that makes it count."""
+    if collision.surface is None and not collision.opaque:  # as most, and then all is usual
+        return
     friction, surface = friction_of(collision), collision.surface
     numbers = (friction.sliding, *_lengths(collision, friction))
     if len(numbers) > 1 or (surface is not None and surface.mu is not None):

@@ -92,6 +92,8 @@ class SpellingNotes:
         """The frame and the notation of a pose."""
         pose: Pose | None = getattr(node, "pose", None)
         attributes = joint_pose_attributes(node) if isinstance(node, Joint) else pose_attributes(pose)
+        if not attributes:
+            return ()
         if self.file.is_back and isinstance(node, Link | Joint):  # in URDF their frames go without saying
             attributes.pop("relative_to", None)
         return [annotation(POSE, attributes=attributes)] if attributes else ()

@@ -18,6 +18,8 @@ from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext, safe_n
 from twinform.passes.legalise.to_urdf_pass import UrdfKeeper
 
 Shape = Visual | Collision
+_WITH_FILES = frozenset({"mesh", "hfield"})
+"""The kinds of assets of shapes, and the attributes of geoms that name them."""
 _SHOWN = frozenset({"camera", "light"})
 """Elements in bodies that sensors and lights become."""
 
@@ -114,7 +116,7 @@ class WrittenFile:
 
     def file_of(self, geom: Element) -> str | None:
         """The file of the mesh or height field of a geom."""
-        assets = (self._assets.get((kind, name)) for kind in ("mesh", "hfield") if (name := geom.get(kind)))
+        assets = (self._assets.get(each) for each in geom.attributes if each[0] in _WITH_FILES)
         return next((each.get("file") for each in assets if each is not None), None)
 
     def parts_of(self, part: Sensor | Light) -> list[Element]:
