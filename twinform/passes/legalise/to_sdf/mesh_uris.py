@@ -70,11 +70,11 @@ class _UriWriter:
         if scheme_of(written) not in {ROS, GAZEBO}:
             return without_annotation(shape, kind), written
         annotation = find_annotation(shape, kind)
-        if annotation is not None and not self.rewrites:
-            return shape, written
         if annotation is not None:
-            bare = without_annotation(shape, kind)
-            return bare, written if annotation.get("scheme") == scheme_of(written) == ROS else model_uri(written)[0]
+            stays = annotation.get("scheme") == scheme_of(written) == ROS
+            if not (stays or self.rewrites):
+                return shape, written
+            return without_annotation(shape, kind), written if stays else model_uri(written)[0]
         uri, lost = model_uri(written)
         if not lost:
             return shape, uri
