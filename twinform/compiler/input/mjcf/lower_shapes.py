@@ -11,6 +11,7 @@ from twinform.ir import Box, Capsule, Cylinder, Element, Ellipsoid, Heightmap, M
 from twinform.ir.geometry import Shape
 from twinform.ir.node import Vector3
 from twinform.ir.transform import Transform
+from twinform.passes.legalise.to_mjcf.assets import usual_depth
 from twinform.passes.legalise.to_mjcf.elements import ENDLESS, GRID
 from twinform.schemas import format_value
 
@@ -118,7 +119,7 @@ def _heightmap(geom: Piece, assets: AssetTable) -> PlacedShape | None:
         return None
     file = asset.take("file")
     x, y, top, bottom = asset.numbers("size")
-    if not math.isclose(bottom, 0.0):
+    if bottom and not math.isclose(bottom, usual_depth(top)):
         asset.leave("size")  # how far it reaches below has no place in SDF
     _take_asset(geom, "hfield", asset)
     size = Element.unchecked(name="size", text=format_value((2 * x, 2 * y, top)))

@@ -33,23 +33,26 @@ from twinform.ir import (
     Visual,
 )
 from twinform.ir.defaults import direction, multiplier
+from twinform.ir.node import Vector3
 from twinform.ir.solids import tensor, turned
 from twinform.ir.transform import Transform, rounded
 from twinform.passes.carriers.absorb import CarrierError, absorb
 from twinform.passes.carriers.annotations import CONTINUOUS, find_annotation, without_annotation
+from twinform.passes.carriers.carriers import to_element
 from twinform.passes.carriers.mjcf_texts import (
     AXES,
     LOOK_OF,
     NORMAL,
     PARTS,
     SHAPE_OF,
+    TERRAIN,
     TURN,
     Tagged,
     digest_of,
     look_parts,
 )
 from twinform.passes.carriers.old_names import NAME, source_name
-from twinform.passes.carriers.partial_nodes import written_name
+from twinform.passes.carriers.partial_nodes import REST, is_rest, written_name
 from twinform.passes.carriers.said_by_mjcf import LIMITED
 from twinform.passes.carriers.sdf_versions import is_version_carrier
 from twinform.passes.carriers.token_mass import UNSAID
@@ -60,7 +63,7 @@ from twinform.passes.legalise.to_mjcf.inertials import weight_parts
 from twinform.passes.legalise.to_mjcf.kept_mjcf import KEPT
 from twinform.passes.legalise.to_mjcf.said_parts import child_number, untyped, without_elements
 from twinform.passes.shared.poses import read_vector
-from twinform.schemas import XmlElement
+from twinform.schemas import XmlElement, format_value
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 AnyShape = TypeVar("AnyShape", Visual, Collision)
@@ -208,12 +211,14 @@ def _without(element: Element, names: Collection[str]) -> Element:
 
 def _with_shape(node: AnyShape, partial: AnyShape) -> tuple[AnyShape, AnyShape]:
     """The shape or URI for which a file stands, if it is that file still; a plane that faces where it did."""
-    node, partial = _with_normal(node, partial)
+    node, partial = _with_position(*_with_normal(node, partial))
     note = find_annotation(partial, SHAPE_OF)
     if note is None:
         return node, partial
     partial = without_annotation(partial, SHAPE_OF)
     shape = node.geometry.shape if node.geometry else None
+    more = _more_shapes(partial.geometry)
+    partial = partial.copy(geometry=None) if more else partial
     if not isinstance(shape, Mesh | Heightmap) or shape.uri != note.get("file"):
         return node, partial
     try:
@@ -223,27 +228,59 @@ def _with_shape(node: AnyShape, partial: AnyShape) -> tuple[AnyShape, AnyShape]:
         return node, partial
     if isinstance(kept, Mesh) and isinstance(shape, Mesh):
         kept = kept.copy(scale=shape.scale)
-    geometry = (node.geometry or Geometry.unchecked()).copy(shape=kept)
+    elif isinstance(kept, Heightmap):
+        kept = kept.copy(opaque=(*kept.opaque, *shape.opaque))
+    geometry = (node.geometry or Geometry.unchecked()).copy(shape=kept, opaque=more)
     beside = partial.geometry.copy(shape=None) if partial.geometry else None
     return node.copy(geometry=geometry), partial.copy(geometry=beside)
 
 
+def _more_shapes(partial: Geometry | None) -> tuple[Opaque, ...]:
+    """The shapes behind the first one, such as further polylines, for which one file stands too."""
+    if partial is None or partial.shape is None or is_rest(partial.shape):
+        return ()
+    alone = to_element(Geometry.unchecked(shape=partial.shape), "geometry", "sdf")
+    first = (Opaque.unchecked(element=each) for each in alone.children)
+    return (*first, *without_annotation(partial, REST).opaque)
+
+
 def _with_normal(node: AnyShape, partial: AnyShape) -> tuple[AnyShape, AnyShape]:
     """The plane with its normal in the source, turned back from there: planes of MJCF face z."""
-    note = find_annotation(partial, NORMAL)
+    normal, partial = _vector_of(partial, NORMAL)
     shape = node.geometry.shape if node.geometry else None
+    if normal is None or not isinstance(shape, Plane):
+        return node, partial
+    return _with_shape_in(node, shape.copy(normal=normal), turn_up_to(normal)), partial
+
+
+def _with_position(node: AnyShape, partial: AnyShape) -> tuple[AnyShape, AnyShape]:
+    """The terrain with its position in the source, moved back from there."""
+    position, partial = _vector_of(partial, TERRAIN)
+    shape = node.geometry.shape if node.geometry else None
+    if position is None or not isinstance(shape, Heightmap):
+        return node, partial
+    written = Opaque.unchecked(element=Element.unchecked(name="pos", text=" ".join(map(format_value, position))))
+    placed = Transform.from_pose(Pose.unchecked(xyz=position))
+    return _with_shape_in(node, shape.copy(opaque=(*shape.opaque, written)), placed), partial
+
+
+def _vector_of(partial: AnyShape, kind: str) -> tuple[Vector3 | None, AnyShape]:
+    """The three numbers of an annotation, if it is there and has them, and the node without it."""
+    note = find_annotation(partial, kind)
     if note is None:
-        return node, partial
-    partial = without_annotation(partial, NORMAL)
+        return None, partial
     try:
-        normal = read_vector(note.get("xyz"))
+        vector = read_vector(note.get("xyz"))
     except ValueError:
-        return node, partial
-    if node.geometry is None or not isinstance(shape, Plane):
-        return node, partial
-    pose = Transform.from_pose(node.pose).compose(turn_up_to(normal).inverse()).to_pose()
-    plane = node.geometry.copy(shape=shape.copy(normal=normal))
-    return node.copy(geometry=plane, pose=None if Transform.from_pose(pose).is_identity else pose), partial
+        vector = None
+    return vector, without_annotation(partial, kind)
+
+
+def _with_shape_in(node: AnyShape, shape: Plane | Heightmap, place: Transform) -> AnyShape:
+    """The node with a shape that is elsewhere in it, such that the shape itself stays where it is."""
+    pose = Transform.from_pose(node.pose).compose(place.inverse()).to_pose()
+    geometry = (node.geometry or Geometry.unchecked()).copy(shape=shape)
+    return node.copy(geometry=geometry, pose=None if Transform.from_pose(pose).is_identity else pose)
 
 
 def _with_type(node: Joint, partial: Joint) -> Joint:

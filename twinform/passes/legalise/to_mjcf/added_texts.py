@@ -8,6 +8,7 @@ from collections.abc import Iterable
 from twinform.ir import (
     Collision,
     Element,
+    Heightmap,
     Joint,
     Light,
     Link,
@@ -38,6 +39,7 @@ from twinform.passes.carriers.mjcf_texts import (
     NORMAL,
     PARTS,
     SHAPE_OF,
+    TERRAIN,
 )
 from twinform.passes.carriers.old_names import source_name
 from twinform.passes.carriers.partial_nodes import WRITTEN, Left, is_bare, is_rest, remainder
@@ -260,9 +262,9 @@ def _without_hidden(joint: Joint) -> Joint:
 
 
 def _is_told(shape: Visual | Collision) -> bool:
-    """Whether a shape names its file by a scheme, where MJCF has paths, or is a plane that does not face z."""
+    """Whether a shape may name its file by a scheme, where MJCF has paths, or be in a place of its own in its pose."""
     found = shape.geometry.shape if shape.geometry else None
-    return isinstance(found, Plane) or (isinstance(found, Mesh) and "://" in (found.uri or ""))
+    return isinstance(found, Plane | Heightmap) or (isinstance(found, Mesh) and "://" in (found.uri or ""))
 
 
 def _has_more_shapes(left: Node) -> bool:
@@ -277,7 +279,7 @@ def _tells_of_names(left: Node) -> bool:
     the joint by which it did so in URDF.
     """
     return any(
-        any(find_annotation(each, note) is not None for note in (SHAPE_OF, NORMAL))
+        any(find_annotation(each, note) is not None for note in (SHAPE_OF, NORMAL, TERRAIN))
         or (isinstance(each, Link) and find_annotation(each, FLOATING) is not None)
         or (isinstance(each, Visual | Collision | Sensor) and find_annotation(each, WRITTEN) is not None)
         or (isinstance(each, Sensor) and (find_annotation(each, PARTS) is not None or not is_rest(each)))

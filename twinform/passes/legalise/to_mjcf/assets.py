@@ -127,7 +127,12 @@ def _depth(context: MjcfContext, name: str | None, above: Vector3) -> float:
         numbers = tuple(map(float, (field.get("size") or "").split()))
         if field.name == "hfield" and field.get("name") == name and numbers[:-1] == above:
             return numbers[-1]
-    return max(above[2], 1.0) / 100
+    return usual_depth(above[2])
+
+
+def usual_depth(height: float) -> float:
+    """How far the ground of a terrain goes down below its origin, which SDF does not say and MuJoCo asks for."""
+    return max(height, 1.0) / 100
 
 
 def vector_in(node: Node, name: str, usual: Vector3) -> Vector3:

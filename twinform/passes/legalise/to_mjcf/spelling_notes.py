@@ -12,6 +12,7 @@ from twinform.ir import (
     Format,
     Frame,
     Geometry,
+    Heightmap,
     Inertial,
     Joint,
     Light,
@@ -41,6 +42,7 @@ from twinform.passes.carriers.mjcf_texts import (
     PREFIXES,
     SEVERAL,
     SHAPE_OF,
+    TERRAIN,
     TURN,
     digest_of,
     look_parts,
@@ -49,9 +51,11 @@ from twinform.passes.carriers.mjcf_texts import (
 from twinform.passes.carriers.partial_nodes import PLACE, WRITTEN
 from twinform.passes.carriers.said_by_mjcf import said_by_mjcf
 from twinform.passes.carriers.sdf_versions import is_version_carrier
+from twinform.passes.legalise.to_mjcf.assets import vector_in
 from twinform.passes.legalise.to_mjcf.geoms import UP
 from twinform.passes.legalise.to_mjcf.inertials import weight_parts
 from twinform.passes.legalise.to_mjcf.materials import is_kept_material
+from twinform.passes.legalise.to_mjcf.said_parts import without_elements
 from twinform.passes.legalise.to_mjcf.what_is_said import WhatIsSaid
 from twinform.passes.legalise.to_mjcf.written_file import Shape
 from twinform.passes.shared.joint_ends import joint_pose_attributes
@@ -187,12 +191,14 @@ class SpellingNotes:
             return
         shape, file = part.geometry.shape if part.geometry else None, self.file.file_of(geom)
         if shape is not None and file is not None and getattr(shape, "uri", None) != file:
-            kept = shape.copy(scale=None) if isinstance(shape, Mesh) else shape
+            kept = shape.copy(scale=None) if isinstance(shape, Mesh) else without_elements(shape, {"size", "pos"})
             holder = to_element(Geometry.unchecked(shape=kept), "geometry", "sdf")
             note = annotation(SHAPE_OF, attributes={"file": file})
             yield note.copy(element=note.element and note.element.copy(children=holder.children))
         if isinstance(shape, Plane) and shape.normal not in {None, UP}:
             yield annotation(NORMAL, attributes={"xyz": _numbers(shape.normal or UP)})
+        if isinstance(shape, Heightmap) and any(position := vector_in(shape, "pos", (0.0, 0.0, 0.0))):
+            yield annotation(TERRAIN, attributes={"xyz": _numbers(position)})
 
     def parts(self, part: Sensor | Light) -> Iterable[Opaque]:
         """The elements that a sensor or light has become."""
