@@ -7,6 +7,7 @@ from collections.abc import Collection, Iterable, Mapping
 from typing import TypeVar
 
 from twinform.compiler.input.mjcf.carried_texts import CarriedText, are_of_sdf, nodes_of, report_stale, report_unmerged
+from twinform.compiler.input.mjcf.first_links import with_first_links
 from twinform.compiler.input.mjcf.joined_joints import join_joints, sensors_left
 from twinform.compiler.input.mjcf.merge_parts import merge_parts
 from twinform.compiler.input.mjcf.models_of_world import with_models, with_nested
@@ -122,7 +123,7 @@ class _Merged:
             model = with_models(model)
         elif not self._is_of_urdf:
             model = with_nested(model)
-        document = self._as_document(self._restored(model))
+        document = self._as_document(self._restored(with_first_links(model)))
         if any(each.type == "gearbox" for each in self.joints):
             document = rewrite(document, Model, lambda each: without_their_mimics(each, self.sink))
         return self._in_version(document)

@@ -9,18 +9,13 @@ from twinform.ir import Frame, Joint, Light, Model, Node, Sensor, World, rewrite
 from twinform.ir.frames import MODEL
 from twinform.passes.carriers.annotations import with_annotation
 from twinform.passes.carriers.carriers import bits_of_ours, is_carrier
-from twinform.passes.carriers.mjcf_texts import DOCUMENT
+from twinform.passes.carriers.mjcf_texts import DOCUMENT, FIRST
 from twinform.passes.carriers.partial_nodes import remainder
 from twinform.passes.legalise.to_mjcf.added_texts import AddedTexts
 from twinform.passes.legalise.to_mjcf.text_list import TextList
 from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext
-from twinform.passes.sdf_versions import sdf_version_read
 from twinform.passes.shared.joint_ends import joint_pose_attributes
 from twinform.passes.shared.poses import POSE
-from twinform.schemas import parse_version, versions_of
-
-_ALWAYS_THE_FIRST = frozenset(each for each in versions_of("sdf") if parse_version(each) < (1, 7))
-"""The versions of SDF in which the canonical link cannot be named."""
 
 
 def add_texts(context: MjcfContext) -> None:
@@ -69,13 +64,12 @@ class _AllTexts(TextList):
         return node.copy(opaque=tuple(part for part in node.opaque if not is_carrier(part, "mjcf")))
 
     def _with_canonical_link(self, model: Model) -> Model:
-        """The model, which names its first link if that is not the first body of the file; no old model can."""
+        """The model, which names its first link if that is not the first body of the file."""
         first = next(iter(self.context.written_bodies), None)
-        is_old = sdf_version_read(self.context.version_read) in _ALWAYS_THE_FIRST
         is_named = self.file.is_back or model.canonical_link or not model.links
-        if is_old or is_named or first in {None, model.links[0].name}:
+        if is_named or first in {None, model.links[0].name}:
             return model
-        return model.copy(canonical_link=model.links[0].name)
+        return with_annotation(model, FIRST, attributes={"link": model.links[0].name})
 
     def _in_its_child(self, joint: Joint) -> Joint:
         """A joint that is posed in the frame of a placed model, which a file does not have, posed in its child."""
