@@ -168,7 +168,7 @@ class _PartMerging:
         names = {name_in_file(each): each.name for each in model.joints}
         joints = {each.name: each for each in model.joints}
         loops = [each.copy(parent=parent, child=child) for each, parent, child in closed]
-        model, left = join_joints(model, chains, names)
+        model, left = join_joints(model, chains)
         for each in left:
             report_stale(self.sink, f"joint {each.name!r} is no joint of type {each.type} any more", each.source)
         for each in sensors_left(model, left):

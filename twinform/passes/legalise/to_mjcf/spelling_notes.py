@@ -125,13 +125,13 @@ class SpellingNotes:
                 yield annotation(OFFSET, attributes=offset_attributes(placed))
 
     def _on_joint(self, joint: Joint) -> Iterable[Opaque]:
-        """How the frame of a joint is turned in its body, where MJCF only has an axis; that it closes a loop.
+        """How the frame of a joint is turned in its body, where MJCF only has an axis; that constraints stand for it.
 
         MJCF has one word for `continuous` and for `revolute` without a range.
         """
         if joint.name in self.file.closing:
             return [annotation(LOOP)]
-        if joint.type == "fixed" or joint.child is None or not self.file.graph.knows(joint.child):
+        if joint.type in {"fixed", "gearbox"} or joint.child is None or not self.file.graph.knows(joint.child):
             return ()
         placed = self.file.graph.pose(joint.name, joint.child, kind="joint", base="link")
         turn = None if placed.is_unturned else _numbers(placed.rpy())

@@ -8,6 +8,7 @@ from twinform.ir import Axis, Collision, Dynamics, Frame, Joint, Light, Limit, L
 from twinform.ir.defaults import UNLIMITED
 from twinform.ir.frames import WORLD
 from twinform.passes.carriers.annotations import is_synthesized
+from twinform.passes.carriers.joint_chains import TWO_AXES
 from twinform.passes.carriers.partial_nodes import EXISTENCE, Left
 from twinform.passes.carriers.said_by_mjcf import said_by_mjcf, said_of_limit
 from twinform.passes.legalise.to_mjcf.written_file import WrittenFile
@@ -87,6 +88,8 @@ class WhatIsSaid:
         joint = self.file.part
         if not isinstance(joint, Joint):
             return said_by_mjcf(node)
+        if _is_of_no_axis(node, joint):
+            return None
         # A loop is held at points, which do not say how it turns there.
         if joint.name in self.file.closing:
             return None
@@ -109,6 +112,14 @@ class WhatIsSaid:
 def _without_end(limit: Limit) -> frozenset[str]:
     """The ends of a range that are infinite: URDF writes both, and MJCF neither."""
     return frozenset(name for name in ("lower", "upper") if abs(getattr(limit, name) or 0.0) >= UNLIMITED)
+
+
+def _is_of_no_axis(node: Axis | Limit | Dynamics | Mimic, joint: Joint) -> bool:
+    """Whether a node is the second axis of a joint that has one axis, or is in that: nothing is written for it."""
+    axis = joint.axis2
+    if axis is None or joint.type in TWO_AXES:
+        return False
+    return any(each is node for each in (axis, axis.limit, axis.dynamics, axis.mimic))
 
 
 def _only_holds(joint: Joint) -> bool:
