@@ -137,7 +137,7 @@ class _Merged:
     def _with_loops(self, model: Model) -> Model:
         """The model with the joints that closed loops in place of the constraints that do, if these still do."""
         links = {written: each.name for each in self.links for written in written_names(each)}
-        names = NamesByFile(links, self.names)
+        names = NamesByFile(links, self.names, frozenset(each.name for each in self.frames))
         back = loops_back(model, filter(is_loop, self.joints), names, self.root, self.sink)
         self.spellings.agreed.update((tag, each) for tag in ("connect", "weld") for each in back.names)
         self.joints = [each for each in self.joints if not is_loop(each)]

@@ -40,6 +40,8 @@ class NamesByFile(NamedTuple):
 
     links: Mapping[str, str]
     joints: Mapping[str, str]
+    frames: frozenset[str] = frozenset()
+    """The names of frames without sites, such as those of nested models, which the model does not have yet."""
 
 
 def is_loop(partial: Joint) -> bool:
@@ -74,7 +76,8 @@ class _Constraints:
         self.model, self.loops, self.names = model, loops, names
         self.joints = {each.name: each for each in model.joints}
         self.elements = {each.get("name") or "": each for each in root.iterfind("equality/*")}
-        self.links = {WORLD, *(each.name for each in (*model.links, *model.frames))}
+        self.links = {WORLD, *names.frames, *(each.name for each in (*model.links, *model.frames))}
+        self.graph = FrameGraph(model)
 
     def closed(self) -> list[Joint]:
         """The joints that still close loops, where these constraints hold their links together."""
@@ -95,13 +98,19 @@ class _Constraints:
 
     def _hold(self, partial: Joint) -> bool:
         """Whether all constraints that stood for a joint hold its links together, if there were any."""
-        if not is_held_in_mjcf(partial):
-            return partial.name not in self.joints and {partial.parent, partial.child} <= self.links
+        if not _is_held(partial):
+            is_there = partial.name not in self.joints and {partial.parent, partial.child} <= self.links
+            return is_there and (not is_held_in_mjcf(partial) or self._is_in_one_link(partial))
         written = written_names(partial)
         ends: list[Ends] = [(each.parent, each.child) for each in self._joints_of(written)]
         if not ends:
             ends = [self._ends(self.elements[each]) for each in written if each in self.elements]
         return len(ends) == len(written) and set(ends) == {(partial.parent, partial.child)}
+
+    def _is_in_one_link(self, partial: Joint) -> bool:
+        """Whether the frames that a joint connects are in one link, as far as the model has them."""
+        ends = {self.graph.body(each) for each in (partial.parent, partial.child) if each and self.graph.knows(each)}
+        return len(ends) <= 1
 
     def _placed(self, loops: Sequence[Joint]) -> list[Joint]:
         """Joints where their constraints are, without those that would hold their links together in another way."""
@@ -111,6 +120,8 @@ class _Constraints:
         return [placed for each in loops if (placed := self._at_anchors(each, graph)) is not None]
 
     def _at_anchors(self, joint: Joint, graph: FrameGraph) -> Joint | None:
+        if not _is_held(joint):
+            return joint
         found = (_anchor(self.elements.get(each)) for each in written_names(joint))
         anchors = [each for each in found if each is not None]
         return next((each for each in (joint, _moved(joint, anchors)) if _is_at(each, anchors, graph)), None)
@@ -118,6 +129,12 @@ class _Constraints:
     def _ends(self, element: XmlElement) -> Ends:
         first, second = element.get("body1"), element.get("body2")
         return self.names.links.get(first or "", first), self.names.links.get(second or "", second)
+
+
+def _is_held(partial: Joint) -> bool:
+    """Whether constraints stand for a joint; none do for one that connects two frames of one link."""
+    found = find_annotation(partial, LOOP)
+    return is_held_in_mjcf(partial) and (found is None or found.get("held") != "false")
 
 
 def _is_at(joint: Joint, anchors: Sequence[Vector3], graph: FrameGraph) -> bool:

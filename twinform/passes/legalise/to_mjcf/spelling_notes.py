@@ -130,7 +130,8 @@ class SpellingNotes:
         MJCF has one word for `continuous` and for `revolute` without a range.
         """
         if joint.name in self.file.closing:
-            return [annotation(LOOP)]
+            is_held = joint.name in self.context.written_joints
+            return [annotation(LOOP, attributes={"held": None if is_held else "false"})]
         if joint.type in {"fixed", "gearbox"} or joint.child is None or not self.file.graph.knows(joint.child):
             return ()
         placed = self.file.graph.pose(joint.name, joint.child, kind="joint", base="link")
