@@ -6,6 +6,7 @@ What stands in the file always counts. A carrier fills what is open, and gives n
 from collections.abc import Collection, Iterable, Mapping
 from typing import TypeVar
 
+from twinform.compiler.input.mjcf.attached_frames import attach_frames
 from twinform.compiler.input.mjcf.carried_texts import CarriedText, are_of_sdf, nodes_of, report_stale, report_unmerged
 from twinform.compiler.input.mjcf.first_links import with_first_links
 from twinform.compiler.input.mjcf.joined_joints import join_joints, sensors_left
@@ -26,9 +27,9 @@ from twinform.compiler.input.mjcf.spellings import Spellings
 from twinform.compiler.input.mjcf.usual_remainders import without_assets, without_named
 from twinform.compiler.input.mjcf.written_models import without_stand_ins
 from twinform.diagnostics import DiagnosticSink
-from twinform.ir import Document, Format, Frame, Joint, Link, Model, Node, Opaque, Pose, World, replace_fields, rewrite
+from twinform.ir import Document, Format, Frame, Joint, Link, Model, Node, Opaque, World, replace_fields, rewrite
 from twinform.ir.element import Namespaces
-from twinform.ir.frames import MODEL, WORLD, FrameError, FrameGraph
+from twinform.ir.frames import WORLD, FrameError, FrameGraph
 from twinform.ir.scopes import scoped_models
 from twinform.passes.carriers.annotations import (
     FROM,
@@ -41,7 +42,7 @@ from twinform.passes.carriers.annotations import (
 )
 from twinform.passes.carriers.carriers import NAMESPACE, is_carrier
 from twinform.passes.carriers.carriers import PREFIX as TF
-from twinform.passes.carriers.mjcf_texts import ATTACHED, DOCUMENT, PREFIXES, SEVERAL
+from twinform.passes.carriers.mjcf_texts import DOCUMENT, PREFIXES, SEVERAL
 from twinform.passes.carriers.partial_nodes import WRITTEN, Merging, is_rest, written_names
 from twinform.passes.carriers.token_mass import UNSAID, restore_inertial, says_zero
 from twinform.passes.legalise.changed_names import RestoreNames
@@ -116,7 +117,8 @@ class _Merged:
             self._stale(f"joint {each.name!r} is no joint of type {each.type} any more", each)
         gone = set(map(id, left))
         self.joints = [each for each in self.joints if id(each) not in gone] + sensors_left(model, left)
-        model = with_rotors(self._attached(self._merged(self._with_loops(model))))
+        model = self._merged(self._with_loops(model))
+        model = with_rotors(attach_frames(model, self.sink, is_world=self._is_of_world))
         model = without_assets(model, self.spellings.agreed)
         report_unmerged(self.sink, self.merging.stale)
         if self._is_of_world:
@@ -142,35 +144,6 @@ class _Merged:
         self.spellings.agreed.update((tag, each) for tag in ("connect", "weld") for each in back.names)
         self.joints = [each for each in self.joints if not is_loop(each)]
         return back.model
-
-    def _attached(self, model: Model) -> Model:
-        """The model whose frames are attached to what they were, where that still moves with the same link."""
-        graph = FrameGraph(self._with_still_frames(model))
-
-        def attached(frame: Frame) -> Frame:
-            found = find_annotation(frame, ATTACHED)
-            if found is None:
-                return frame
-            frame = without_annotation(frame, ATTACHED)
-            to = found.get("to") or None
-            if to is not None and not graph.knows(to):
-                self._stale(f"there is no frame {to!r} any more, to which {frame.name!r} was attached", frame)
-                return frame
-            body = graph.body(to or MODEL, kind="frame" if to else "model")
-            if body != frame.attached_to and not (body == WORLD and frame.attached_to is None):
-                self._stale(f"frame {frame.name!r} does not move with {to or MODEL!r} any more", frame)
-                return frame
-            pose = frame.pose or Pose.unchecked()
-            base = pose.relative_to or frame.attached_to or MODEL
-            return frame.copy(attached_to=to, pose=pose.copy(relative_to=base))
-
-        return model.copy(frames=tuple(map(attached, model.frames)))
-
-    def _with_still_frames(self, model: Model) -> Model:
-        """The model whose own frames stand still if it is a world; those of a model move with its first link."""
-        if not self._is_of_world:
-            return model
-        return model.copy(frames=tuple(each.copy(attached_to=each.attached_to or WORLD) for each in model.frames))
 
     def _merged(self, model: Model) -> Model:
         partial = next((each for each in nodes_of(self.texts, "model") if isinstance(each, Model)), None)
