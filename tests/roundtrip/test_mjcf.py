@@ -10,6 +10,7 @@ from tests.profile import examples
 from tests.roundtrip.test_generated import text_of
 from tests.snippets import ARM, INERTIAL
 from twinform.compiler import CompileError, convert
+from twinform.compiler.compare import diff
 from twinform.ir import Document
 from twinform.testing import strategies
 from twinform.testing.properties import RoundTrip, assert_valid
@@ -74,6 +75,20 @@ def test_a_case_comes_back_from_mjcf(case: str) -> None:
     robot = (_CASES / case).read_bytes()
     trip = RoundTrip.of(robot, assert_valid(robot))
     assert [each.message for each in trip.mismatches(trip.back(convert(robot, to="mjcf").text))] == []
+
+
+def test_a_loop_that_is_added_at_the_root_leaves_it_where_it_is() -> None:
+    links = f'<link name="base">{INERTIAL}</link><link name="cup">{INERTIAL}</link>'
+    joint = '<joint name="glue" type="fixed"><parent link="base"/><child link="cup"/></joint>'
+    there = convert(f'<robot name="cups">{links}{joint}</robot>'.encode(), to="mjcf").text
+    loop = '<equality><connect name="loop" body1="cup" body2="base" anchor="0 0 0.1"/></equality></mujoco>'
+    there = there.replace("</mujoco>", loop)
+    assert "stale-carrier" not in {each.rule.name for each in convert(there.encode(), to="urdf").diagnostics}
+
+
+def test_a_joint_that_was_made_and_stands_in_the_file_comes_back() -> None:
+    held = (_CASES / "edits/held_by_the_world.urdf").read_bytes()
+    assert diff(held, convert(convert(held, to="mjcf").text.encode(), to="urdf").text.encode(), carriers=True).same
 
 
 def test_what_was_a_urdf_says_once_that_a_link_has_no_mass() -> None:
