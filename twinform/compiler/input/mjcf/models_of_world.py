@@ -10,6 +10,7 @@ from twinform.ir import Element, Format, Frame, Joint, Model, Opaque
 from twinform.ir.frames import WORLD
 from twinform.ir.scopes import SCOPE, scopes_of
 from twinform.passes.carriers.annotations import MADE_NAME, annotation, find_annotation
+from twinform.passes.carriers.old_names import with_old_name
 from twinform.passes.legalise.changed_names import Names, renamed
 from twinform.passes.shared.nodes import unique_name
 from twinform.passes.shared.poses import NESTED
@@ -39,11 +40,26 @@ def with_models(model: Model) -> Model:
 
 
 def with_nested(model: Model) -> Model:
-    """The model with a frame for each model in it that only names tell of, where the first link of that is."""
+    """The model with a frame for each model in it that only names tell of, where the first link of that is.
+
+    A joint between two of them is in neither, and has `_` for `::` in its name, with a note of that in the file.
+    """
+    between = {each.name: each.name.replace(SCOPE, "_") for each in model.joints if _is_between(each)}
+    if between:
+        noted = (with_old_name(each, between[each.name]) if each.name in between else each for each in model.joints)
+        names: Names = {("joint", name): new for name, new in between.items()}
+        model = renamed(model.copy(joints=tuple(noted)), names, Format.SDF)
     known = {each.name for each in model.frames}
     first = {scope: each.name for each in reversed(model.links) for scope in scopes_of(each.name)}
     frames = tuple(_frame_of(name, link, is_made=False) for name, link in first.items() if name not in known)
     return model.copy(frames=(*model.frames, *reversed(frames))) if frames else model
+
+
+def _is_between(joint: Joint) -> bool:
+    """Whether a joint connects what is not in the model that its name begins with."""
+    scope = _top(joint.name) + SCOPE
+    ends = (end for end in (joint.parent, joint.child) if end != WORLD)
+    return SCOPE in joint.name and not all((end or "").startswith(scope) for end in ends)
 
 
 def _top(name: str) -> str:
