@@ -29,6 +29,7 @@ from twinform.ir import (
     map_references,
 )
 from twinform.ir.node import NOT_CONTENT
+from twinform.ir.scopes import SCOPE
 from twinform.passes.carriers.annotations import (
     came_from,
     find_annotation,
@@ -143,7 +144,8 @@ class RestoreNames(ModelPass):
         if kind == NAME and self.to is Format.URDF:
             model = _model_by_its_name(model)
         back = kind == SCOPED_NAME or came_from(model, self.to)
-        annotated = list(_annotated(model, kind)) if back else []
+        found = list(_annotated(model, kind)) if back else []
+        annotated = [each for each in found if not self._is_of_mjcf(each[-1])]
         if not annotated:
             return model
         names: Names = {}
@@ -169,10 +171,16 @@ class RestoreNames(ModelPass):
                 continue
             taken.add(self._key(part, old))
             names[part, node.name] = old
+        kept = {id(node) for _, node, _, old in found if self._is_of_mjcf(old)}
         update = {
-            field: tuple(without_annotation(node, kind) for node in getattr(model, field)) for field in _FIELDS.values()
+            field: tuple(node if id(node) in kept else without_annotation(node, kind) for node in getattr(model, field))
+            for field in _FIELDS.values()
         }
         return renamed(model.copy(**update), names, self.to)
+
+    def _is_of_mjcf(self, old: str) -> bool:
+        """Whether only MJCF has such a name: a joint between two models has no scope in SDF."""
+        return self.apart and SCOPE in old
 
     def _key(self, part: Part, name: str) -> tuple[Part, str]:
         return (part if (self.to is Format.URDF or self.apart) and not self.unique else "", name)
