@@ -4,15 +4,35 @@ from collections.abc import Callable, Mapping
 from functools import cached_property
 from typing import Any
 
-from twinform.ir import Axis, Collision, Dynamics, Frame, Joint, Light, Limit, Link, Mimic, Node, Sensor, Visual, World
+from twinform.ir import (
+    Axis,
+    Collision,
+    Dynamics,
+    Frame,
+    Joint,
+    Light,
+    Limit,
+    Link,
+    Mimic,
+    Node,
+    Sensor,
+    Surface,
+    Visual,
+    World,
+)
 from twinform.ir.defaults import UNLIMITED
 from twinform.ir.frames import WORLD
 from twinform.passes.carriers.annotations import is_synthesized
 from twinform.passes.carriers.joint_chains import TWO_AXES
 from twinform.passes.carriers.partial_nodes import EXISTENCE, Left
 from twinform.passes.carriers.said_by_mjcf import said_by_mjcf, said_of_limit
+from twinform.passes.legalise.to_mjcf.friction import USUAL_SLIDING
 from twinform.passes.legalise.to_mjcf.written_file import WrittenFile
+from twinform.passes.sdf_versions import sdf_version_read
+from twinform.schemas import Version, parse_version
 
+_USUAL_FRICTION: Version = (1, 4)
+"""Since this version of SDF a surface without a coefficient of friction has that which MJCF gives it too."""
 Fields = frozenset[str] | None
 """The fields that are said; None where nothing is said of a node, not even that it is there."""
 _DIRECTED = frozenset({"revolute", "continuous", "prismatic", "universal", "revolute2", "screw"})
@@ -41,6 +61,7 @@ class WhatIsSaid:
             Sensor: lambda sensor: _PLACED if id(sensor.source) in file.context.kept_sensors else None,
             Link: lambda link: said_by_mjcf(link) if link.name in file.context.written_bodies else None,
             Frame: lambda frame: said_by_mjcf(frame) if file.has_site(frame) else None,
+            Surface: self._of_surface,
             Visual: self._of_shape,
             Collision: self._of_shape,
         }
@@ -82,6 +103,12 @@ class WhatIsSaid:
 
     def _of_shape(self, shape: Visual | Collision) -> Fields:
         return None if self.file.geom_name(shape) is None else said_by_mjcf(shape)
+
+    def _of_surface(self, surface: Surface) -> Fields:
+        """The fields that are said of a surface: no usual friction of MJCF where the source has another usual one."""
+        said = said_by_mjcf(surface) or frozenset()
+        version = parse_version(sdf_version_read(self.file.context.version_read))
+        return said - {"mu"} if surface.mu == USUAL_SLIDING and version < _USUAL_FRICTION else said
 
     def _of_axis(self, node: Axis | Limit | Dynamics | Mimic) -> Fields:
         """The fields that are said of an axis, or of a group of values in one."""
