@@ -76,7 +76,7 @@ class AddedTexts(TextList):
             if each.name not in hidden
         ]
         joints = [_without_hidden(each) if each.child in hidden else each for each in model.joints]
-        joints = [_as_mjcf_has_it(each, self.context) for each in joints if not self._is_constraint(each)]
+        joints = [self._as_mjcf_has_joint(each) for each in joints if not self._is_constraint(each)]
         models = FileModels(self.context)
         for part in holder_partials(self.context, self.file, models):
             self.add_text(*part)
@@ -182,11 +182,22 @@ class AddedTexts(TextList):
         is_of_world = self.context.written_bodies.get(link.name) == WORLD
         return link.copy(
             collisions=tuple(map(left_of, link.collisions)),
-            sensors=link.sensors if is_of_world else _unread_sensors(link.sensors, self.context),
+            sensors=link.sensors if is_of_world else self._unread_sensors(link.sensors),
             lights=link.lights if is_of_world else tuple(lights),
             inertial=None if weight_of(link).is_nothing else link.inertial,
             kinematic=None if link.name in self.context.mocap else link.kinematic,
         )
+
+    def _as_mjcf_has_joint(self, joint: Joint) -> Joint:
+        """A joint without sensors, and without the axis of a ball, which is there for its damping alone."""
+        axis = joint.axis.copy(xyz=None) if joint.axis and joint.type == "ball" else joint.axis
+        return joint.copy(sensors=self._unread_sensors(joint.sensors), axis=axis)
+
+    def _unread_sensors(self, sensors: Iterable[Sensor]) -> tuple[Sensor, ...]:
+        """The sensors of which the file leaves something unsaid."""
+        kept = self.context.kept_sensors
+        found = (_unread(each, kept.get(id(each.source)), self.what.left_of(each)) for each in sensors)
+        return tuple(left for left in found if left is not None)
 
     def _without_seen(self, link: Link) -> Link:
         """A link whose visuals have no material that the file shows as it is."""
@@ -311,26 +322,14 @@ def _as_mjcf_has_collision(collision: Collision, *, has_masks: bool) -> Collisio
     return collision.copy(surface=surface.copy(mu2=None if one == other else other))
 
 
-def _as_mjcf_has_it(joint: Joint, context: MjcfContext) -> Joint:
-    """A joint without sensors, and without the axis of a ball, which is there for its damping alone."""
-    axis = joint.axis.copy(xyz=None) if joint.axis and joint.type == "ball" else joint.axis
-    return joint.copy(sensors=_unread_sensors(joint.sensors, context), axis=axis)
-
-
-def _unread_sensors(sensors: Iterable[Sensor], context: MjcfContext) -> tuple[Sensor, ...]:
-    """The sensors of which a file of MJCF leaves something unsaid."""
-    found = (_unread(each, context.kept_sensors.get(id(each.source))) for each in sensors)
-    return tuple(left for left in found if left is not None)
-
-
-def _unread(sensor: Sensor, read: KeptSensor | None) -> Sensor | None:
+def _unread(sensor: Sensor, read: KeptSensor | None, written: Node | None) -> Sensor | None:
     """What a file of MJCF leaves unsaid of a sensor, without a type where readings stand for it; None for nothing.
 
-    `read` is how it is read of the readings that it keeps.
+    `read` is how it is read of the readings that it keeps, and `written` is there if the file has it as a camera.
     """
     opaque = tuple(part for part in sensor.opaque if not (is_of_mjcf(part) or _is_read(part.element, read)))
     bare = sensor.copy(type=None, pose=None, opaque=opaque)
-    is_read = read.name == sensor.name if read is not None else sensor.type == "camera"
+    is_read = read.name == sensor.name if read is not None else sensor.type == "camera" and written is not None
     if is_read and bare == Sensor.unchecked(name=sensor.name):
         return None
     return sensor if read is None else bare
