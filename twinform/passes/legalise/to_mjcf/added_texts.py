@@ -55,7 +55,7 @@ from twinform.passes.legalise.to_mjcf.nested_texts import nested_frames
 from twinform.passes.legalise.to_mjcf.options import SETTINGS, has_usual_settings
 from twinform.passes.legalise.to_mjcf.said_parts import without_elements
 from twinform.passes.legalise.to_mjcf.text_list import TextList
-from twinform.passes.legalise.to_mjcf.writing_context import KeptSensor, MjcfContext
+from twinform.passes.legalise.to_mjcf.writing_context import KeptSensor
 from twinform.passes.legalise.to_sdf.joint_types import FLOATING
 
 _MASKS = frozenset(f"contact/{each}" for each in MASKS)

@@ -4,6 +4,7 @@ Poses and axes are in the file, so only their frame and notation are in a note. 
 """
 
 from collections.abc import Callable, Iterable, Mapping
+from functools import reduce
 from typing import Any
 
 from twinform.ir import (
@@ -54,6 +55,7 @@ from twinform.passes.carriers.sdf_versions import is_version_carrier
 from twinform.passes.legalise.to_mjcf.assets import vector_in
 from twinform.passes.legalise.to_mjcf.geoms import UP
 from twinform.passes.legalise.to_mjcf.inertials import weight_parts
+from twinform.passes.legalise.to_mjcf.kept_mjcf import merged
 from twinform.passes.legalise.to_mjcf.materials import is_kept_material
 from twinform.passes.legalise.to_mjcf.said_parts import without_elements
 from twinform.passes.legalise.to_mjcf.what_is_said import WhatIsSaid
@@ -115,7 +117,9 @@ class SpellingNotes:
 
     def on_world(self, _world: World) -> Iterable[Opaque]:
         """The digest of the options of the file, which say the settings of the world."""
-        yield annotation(PARTS, attributes={"digest": digest_of(tagged(self.context.sections.get("option", ())))})
+        options = self.context.sections.get("option", ())
+        written = [reduce(merged, options)] if options else []  # what is kept of them stands in the same element
+        yield annotation(PARTS, attributes={"digest": digest_of(tagged(written))})
 
     def _offset(self, _model: Model) -> Iterable[Opaque]:
         """Where the model's own frame is in the world, which MJCF has no frame for."""

@@ -1,6 +1,7 @@
 """Writes a document in the terms of SDF as the elements of MJCF: which part of it, and the sections in their order."""
 
 from dataclasses import replace
+from functools import reduce
 from typing import ClassVar
 
 from twinform.diagnostics import DiagnosticSink, Fate
@@ -16,7 +17,7 @@ from twinform.passes.legalise.to_mjcf.dangling_parts import drop_dangling_parts
 from twinform.passes.legalise.to_mjcf.elements import make_element
 from twinform.passes.legalise.to_mjcf.equalities import add_equalities
 from twinform.passes.legalise.to_mjcf.file_models import is_named_by_file
-from twinform.passes.legalise.to_mjcf.kept_mjcf import NO_SECTION, SECTIONS, SINGLE
+from twinform.passes.legalise.to_mjcf.kept_mjcf import NO_SECTION, SECTIONS, SINGLE, merged
 from twinform.passes.legalise.to_mjcf.kept_sections import add_kept_sections
 from twinform.passes.legalise.to_mjcf.lights import world_lights
 from twinform.passes.legalise.to_mjcf.made_names import keep_names_read_otherwise, remove_made_names
@@ -119,21 +120,11 @@ def _write_sections(context: MjcfContext) -> None:
 
 def _in_order(context: MjcfContext) -> list[Element]:
     """The sections that have anything, in their order."""
-    found = [_merged([_COMPILER, *context.sections.get("compiler", ())])]
+    found = [reduce(merged, [_COMPILER, *context.sections.get("compiler", ())])]
     for name in SECTIONS:
         elements = context.sections.get(name, [])
         if elements:
-            found.append(_merged(elements) if name in SINGLE else make_element(name, (), elements))
+            found.append(reduce(merged, elements) if name in SINGLE else make_element(name, (), elements))
         elif name == "worldbody":
             found.append(make_element(name))
     return [*found, *context.sections.get(NO_SECTION, ())]
-
-
-def _merged(elements: list[Element]) -> Element:
-    """One element with the attributes and children of all; the first to say an attribute wins."""
-    first, *others = elements
-    for other in others:
-        known = {key for key, _ in first.attributes}
-        more = tuple(each for each in other.attributes if each[0] not in known)
-        first = first.copy(attributes=(*first.attributes, *more), children=(*first.children, *other.children))
-    return first
