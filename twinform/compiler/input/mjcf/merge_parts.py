@@ -76,8 +76,9 @@ class _PartMerging:
         world = next((each for each in nodes_of(texts, "world") if isinstance(each, World)), None)
         back = sensors_back(links, joints, world.lights if world else (), root, there, sink)
         self._world = world and replace_fields(world, lights=back.lights)
-        frames = (each for each in nodes_of(texts, "frame") if isinstance(each, Frame))
+        frames = [each for each in nodes_of(texts, "frame") if isinstance(each, Frame)]
         self._nested = [each for each in frames if find_annotation(each, PART) is not None]
+        self._whole = [each for each in frames if find_annotation(each, PART) is None and not is_rest(each)]
         self._merging = Merging(Spellings(root, sink))
         self._parts = back.parts
         self._loops = [each for each in back.joints if is_loop(each)]
@@ -85,7 +86,7 @@ class _PartMerging:
         # A fixed joint and one of a static model have no name in the file, and are known by the body that they hold.
         self._of_bodies = {each.child: each for each in self._joints if each.type == "fixed" or not is_rest(each)}
         self._used = set[int]()
-        others = (each.node for each in texts if each.kind not in {"link", "joint", "model", "world"})
+        others = (each for each in frames if is_rest(each))
         alone = (each for each in self._joints if len(written_names(each)) == 1)
         self._partials = {(type(each), written_name(each)): each for each in (*back.links, *alone, *models, *others)}
 
@@ -114,12 +115,13 @@ class _PartMerging:
         if isinstance(told, Model) and told.static is False and model.static:
             model = _held(model, {each.child for each in holds})
         nested = [each for each in self._nested if is_nested_in(each, bodies)]
-        self._used.update(map(id, nested))
+        added = tuple(self._added_frames(model))
+        self._used.update(map(id, (*nested, *added)))
         whole = replace_fields(
             self._merged(model),
             links=tuple(map(self._merged, model.links)),
             joints=(*(self._merged_joint(each, fixed, chains) for each in model.joints), *holds),
-            frames=tuple(map(self._merged, model.frames)),
+            frames=(*map(self._merged, model.frames), *added),
         )
         if model.static:
             whole = self._without_floating(whole)
@@ -153,12 +155,17 @@ class _PartMerging:
     def report_stale(self) -> None:
         """Report what belongs to nothing in the file."""
         report_unmerged(self.sink, self._merging.stale)
-        for each in (*self._partials.values(), *self._loops, *self._of_bodies.values(), *self._nested):
+        for each in (*self._partials.values(), *self._loops, *self._of_bodies.values(), *self._nested, *self._whole):
             if isinstance(each, Link | Joint | Frame) and id(each) not in self._used:
                 message = (
                     f"there is no {type(each).__name__.lower()} {each.name!r} any more, of which a carrier holds a part"
                 )
                 report_stale(self.sink, message, each.source)
+
+    def _added_frames(self, model: Model) -> Iterable[Frame]:
+        """Yield the frames that are carried as a whole, of links between the joints of one body."""
+        links, known = {each.name for each in model.links}, {each.name for each in model.frames}
+        return (each for each in self._whole if each.attached_to in links and each.name not in known)
 
     def _joined(self, model: Model, chains: Iterable[Joint], bodies: Mapping[str, str]) -> Model:
         """A model with one joint for several that stand for it: those of a chain, and constraints of a loop."""

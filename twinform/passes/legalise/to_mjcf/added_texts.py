@@ -51,7 +51,7 @@ from twinform.passes.legalise.to_mjcf.inertials import weight_of
 from twinform.passes.legalise.to_mjcf.lights import unread_light
 from twinform.passes.legalise.to_mjcf.looks import is_seen
 from twinform.passes.legalise.to_mjcf.model_texts import holder_partials, is_of_mjcf
-from twinform.passes.legalise.to_mjcf.nested_texts import nested_frames
+from twinform.passes.legalise.to_mjcf.nested_texts import frames_between, nested_frames
 from twinform.passes.legalise.to_mjcf.options import SETTINGS, has_usual_settings
 from twinform.passes.legalise.to_mjcf.said_parts import without_elements
 from twinform.passes.legalise.to_mjcf.text_list import TextList
@@ -82,7 +82,7 @@ class AddedTexts(TextList):
             self.add_text(*part)
         if isinstance(self.context.holder, World):
             self._add_world(self.context.holder, models)
-        for left, frame in nested_frames(self.context, self.file):
+        for left, frame in (*nested_frames(self.context, self.file), *frames_between(self.file)):
             self.add_text("frame", left.name, map_references(left, self._name_in_file), frame)
         for kind, parts in (("link", links), ("joint", joints)):
             for each in filter(lambda part: models.has_part(part.name), parts):

@@ -1,6 +1,7 @@
 """Carriers of nested models that an edit has put into a document of MJCF, where all links are bodies of one tree.
 
-Each has the text of a frame: where the model is, what else it has, and which bodies, joints and sites are its parts.
+Each has the text of a frame: where the model is, what else it has, and which bodies, joints and sites are its parts. A
+frame that an edit has put on a link between the joints of one body has a text too.
 """
 
 from collections.abc import Iterable, Iterator
@@ -27,6 +28,18 @@ def nested_frames(context: MjcfContext, file: WrittenFile) -> Iterator[tuple[Fra
         notes = (*frame.opaque, *_parts(frame.name + SCOPE, context, file))
         around = f"{frame.name.partition(SCOPE)[0]}{SCOPE}" if tops else ""
         yield _placed(frame, file).copy(name=frame.name.removeprefix(around), opaque=notes), frame
+
+
+def frames_between(file: WrittenFile) -> Iterator[tuple[Frame, Frame]]:
+    """Yield the frames that move with a link between the joints of one body, which has no site for them.
+
+    Each is as it is carried, and as it is in the flattened model.
+    """
+    if not file.hidden:
+        return
+    for frame in file.flat.frames:
+        if frame.name not in file.context.written_sites and file.graph.body(frame.name, kind="frame") in file.hidden:
+            yield _placed(frame, file).copy(name=frame.name.rpartition(SCOPE)[2]), frame
 
 
 def _placed(frame: Frame, file: WrittenFile) -> Frame:
