@@ -234,6 +234,8 @@ class AddedTexts(TextList):
             return (*(annotation(WRITTEN, attributes={"as": each}) for each in self.file.other_names(node)), *notes)
         if isinstance(node, Joint) and (node.name in self.file.closing or node.type in CHAINS):
             return tuple(self._notes_of_several(node))
+        if isinstance(node, Joint):  # its frame, in which sensors on it are posed, is turned as it was written
+            return tuple(self.spelling.on_joint(node)) if node.sensors else ()
         if isinstance(node, Sensor) and (read := self.context.kept_sensors.get(id(node.source))) is not None:
             return () if read.name == node.name else (annotation(WRITTEN, attributes={"as": read.name}),)
         if isinstance(node, Light) or (isinstance(node, Sensor) and self.what.left_of(node) is not None):

@@ -81,7 +81,7 @@ class SpellingNotes:
             World: self.on_world,
             Light: self.parts,
             Sensor: lambda sensor: () if said.left_of(sensor) is None else self.parts(sensor),
-            Joint: self._on_joint,
+            Joint: self.on_joint,
             Frame: self._attached,
             Model: self._offset,
         }
@@ -128,7 +128,7 @@ class SpellingNotes:
             if not placed.is_identity:
                 yield annotation(OFFSET, attributes=offset_attributes(placed))
 
-    def _on_joint(self, joint: Joint) -> Iterable[Opaque]:
+    def on_joint(self, joint: Joint) -> Iterable[Opaque]:
         """How the frame of a joint is turned in its body, where MJCF only has an axis; that constraints stand for it.
 
         MJCF has one word for `continuous` and for `revolute` without a range.
