@@ -288,7 +288,19 @@ def _sdf_xml(node: Node, tag: str) -> XmlElement:
     made = node_xml("sdf", node, tag)
     if isinstance(node, Sensor):
         _use_new_names(made)
+        _name_collisions_once(made)
     return made
+
+
+def _name_collisions_once(sensor: XmlElement) -> None:
+    """Remove repetitions of the collisions whose contacts a sensor tells of."""
+    known = set[str]()
+    for contact in sensor.iterchildren("contact"):
+        for collision in [*contact.iterchildren("collision")]:
+            name = (collision.text or "").strip()
+            if name in known:
+                contact.remove(collision)
+            known.add(name)
 
 
 def _use_new_names(sensor: XmlElement) -> None:
