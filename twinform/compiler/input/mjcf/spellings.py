@@ -5,8 +5,8 @@ What an edit has changed does not agree any more, and counts.
 """
 
 import math
-from collections.abc import Collection
-from typing import TypeVar, cast
+from collections.abc import Callable, Collection, Iterator, Mapping
+from typing import Any, TypeVar, cast
 
 from twinform.compiler.input.mjcf.carried_texts import report_stale
 from twinform.diagnostics import DiagnosticSink
@@ -22,6 +22,7 @@ from twinform.ir import (
     Joint,
     JointType,
     Limit,
+    Link,
     Mesh,
     Mimic,
     Node,
@@ -37,7 +38,7 @@ from twinform.ir.node import Vector3
 from twinform.ir.solids import tensor, turned
 from twinform.ir.transform import Transform, rounded
 from twinform.passes.carriers.absorb import CarrierError, absorb
-from twinform.passes.carriers.annotations import CONTINUOUS, find_annotation, without_annotation
+from twinform.passes.carriers.annotations import CONTINUOUS, SAME_GEOM, find_annotation, without_annotation
 from twinform.passes.carriers.carriers import to_element
 from twinform.passes.carriers.mjcf_texts import (
     AXES,
@@ -92,32 +93,27 @@ class Spellings:
         self._sink = sink
         self._geoms = {each.get("name") or "": each for each in root.iter("geom")}
         self._assets = {(str(each.tag), each.get("name")): each for each in root.iterfind("asset/*")}
+        self._by_class: Mapping[type[Node], Callable[[Any, Any], tuple[Node, Node]]] = {
+            Link: lambda node, partial: (node, _with_own_names(node, partial)),
+            Visual: self._of_visual,
+            Collision: lambda node, partial: _without_name_of_file(*self._with_rolling(*_with_shape(node, partial))),
+            Surface: lambda node, partial: _with_torsion(*_with_second_coefficient(node, partial)),
+            Joint: _with_motion,
+            Mimic: _with_reference,
+            Limit: lambda node, partial: (_with_ends(node, partial), partial),
+            Sensor: _with_contacts,
+            Inertial: self._with_inertia,
+        }
 
     def __call__(self, node: AnyNode, partial: AnyNode) -> tuple[AnyNode, AnyNode]:
         """Return both nodes."""
-        made: tuple[Node, Node] = (node, partial)
-        if isinstance(node, Visual) and isinstance(partial, Visual):
-            made = self._with_look(*_with_shape(node, partial))
-            made = _without_name_of_file(*_with_transparency(*made))
-        elif isinstance(node, Collision) and isinstance(partial, Collision):
-            made = self._with_rolling(*_with_shape(node, partial))
-            made = _without_name_of_file(*made)
-        elif isinstance(node, Surface) and isinstance(partial, Surface):
-            made = _with_torsion(*_with_second_coefficient(node, partial))
-        elif isinstance(node, Joint) and isinstance(partial, Joint):
-            kept = without_annotation(_without_position(node, partial), TURN, CONTINUOUS)
-            made = _with_turn(_without_made_axis(_with_type(node, partial), partial), partial), kept
-        elif isinstance(node, Mimic) and isinstance(partial, Mimic):
-            made = _with_reference(node, partial)
-        elif isinstance(node, Limit) and isinstance(partial, Limit):
-            made = _with_ends(node, partial), partial
-        elif isinstance(node, Sensor) and isinstance(partial, Sensor):
-            made = _with_contacts(node, partial)
-        elif isinstance(node, Inertial) and isinstance(partial, Inertial):
-            if find_annotation(partial, UNSAID) is not None:  # of a body without mass, as it is read
-                node = without_annotation(node, UNSAID)
-            made = _with_axes(node, partial), without_annotation(self._computed(node, partial), AXES)
-        return cast("tuple[AnyNode, AnyNode]", made)
+        settle = self._by_class.get(type(node)) if type(node) is type(partial) else None
+        return (node, partial) if settle is None else cast("tuple[AnyNode, AnyNode]", settle(node, partial))
+
+    def _of_visual(self, node: Visual, partial: Visual) -> tuple[Node, Node]:
+        """The shape, the look and the transparency of the source."""
+        looks = self._with_look(*_with_shape(node, partial))
+        return _without_name_of_file(*_with_transparency(*looks))
 
     def _with_look(self, node: Visual, partial: Visual) -> tuple[Visual, Visual]:
         """The look of the source, if the file shows it as it was written."""
@@ -133,6 +129,12 @@ class Spellings:
             return node.copy(material=None), partial
         self.agreed.update((tag, attributes["name"]) for tag, attributes in parts if "name" in attributes)
         return node.copy(material=None, opaque=_without_attributes(node.opaque, {"material"})), partial
+
+    def _with_inertia(self, node: Inertial, partial: Inertial) -> tuple[Inertial, Inertial]:
+        """The axes of the source, and what it had for a body without mass."""
+        if find_annotation(partial, UNSAID) is not None:  # of a body without mass, as it is read
+            node = without_annotation(node, UNSAID)
+        return _with_axes(node, partial), without_annotation(self._computed(node, partial), AXES)
 
     def _computed(self, node: Inertial, partial: Inertial) -> Inertial:
         """What is kept of an inertia that was computed, without that if it or its shapes were edited since."""
@@ -179,6 +181,33 @@ def _without_name_of_file(node: Node, partial: Node) -> tuple[Node, Node]:
     """The node without the name of its geom, where it gets another one than that is read as."""
     is_renamed = written_name(partial) != getattr(partial, "name", None)
     return (without_annotation(node, NAME) if is_renamed else node), partial
+
+
+def _with_motion(node: Joint, partial: Joint) -> tuple[Joint, Joint]:
+    """The type, the frame and the range of the source, as far as the file has these in another way."""
+    kept = without_annotation(_without_position(node, partial), TURN, CONTINUOUS)
+    return _with_turn(_without_made_axis(_with_type(node, partial), partial), partial), kept
+
+
+def _with_own_names(node: Link, partial: Link) -> Link:
+    """The partial link, whose shapes are called as in the file if another one there has their old names by now.
+
+    A visual that is one geom with a collision is called as that is.
+    """
+    collisions = tuple(_without_taken(partial.collisions, {each.name for each in node.collisions}))
+    visuals = tuple(_without_taken(partial.visuals, {each.name for each in node.visuals}))
+    twins = {each.name for each in node.visuals if find_annotation(each, SAME_GEOM) is not None}
+    if twins:
+        names = {written_name(each): each.name for each in collisions}
+        found = ((each, written_name(each)) for each in visuals)
+        visuals = tuple(each.copy(name=names.get(name, name)) if name in twins else each for each, name in found)
+    return partial.copy(visuals=visuals, collisions=collisions)
+
+
+def _without_taken(partials: tuple[AnyShape, ...], names: set[str | None]) -> Iterator[AnyShape]:
+    """Yield partial shapes; what would get the name of another one keeps the name that it has in the file."""
+    others = names - set(map(written_name, partials))
+    return (each.copy(name=written_name(each)) if each.name in others else each for each in partials)
 
 
 def _with_contacts(node: Sensor, partial: Sensor) -> tuple[Sensor, Sensor]:
