@@ -18,10 +18,10 @@ from testbed.edits.edited_file import EditedFile, Language, without_scenery
 from testbed.edits.engines import NotReadError, differences_in_engines, is_refused_by_mujoco
 from testbed.edits.mistakes import KIND as MISTAKE
 from testbed.edits.plainly import Plainly, explained, plain_key
-from twinform.compiler import CompileError, Conversion, convert
+from twinform.compiler import CompileError, Conversion, check, convert
 from twinform.compiler.compare import Difference, diff
 from twinform.diagnostics import Diagnostic, Severity
-from twinform.diagnostics.rules import OUTSIDE_MODEL
+from twinform.diagnostics.rules import OUTSIDE_MODEL, UNKNOWN_COLLISION
 
 Key = tuple[str | None, ...]
 """What differs: group, name and aspect of a `Difference`; plainly, see `plain_key`."""
@@ -123,6 +123,7 @@ def judge(
         return Verdict(fault, (f"not compared: {error}",), warned, made.text)
     except Exception as error:  # noqa: BLE001 - a result that cannot be read is no result
         return Verdict(fault, (f"not compared: {type(error).__name__}: {error}",), warned, made.text)
+    compared, when_back = (_about_what_is_there(each, edited) for each in (compared, when_back))
     found = [each.message for each in compared if _key(each) not in before.differing]
     news_plainly = [each for each in read if plain_key(each) not in before.differing_plainly]
     reasons = [explained(each, plainly, file) for each in news_plainly]
@@ -167,6 +168,20 @@ def _compared(file: EditedFile, result: str, back: str) -> tuple[tuple[Differenc
     if file.language == "mjcf":  # MuJoCo is who reads it without carriers
         others = (others[0], (b"", b""), others[2])
     return tuple(diff(one, other, carriers=True).differences if one else () for one, other in others)
+
+
+def _about_what_is_there(found: Iterable[Difference], edited: bytes) -> list[Difference]:
+    """The differences, without names of collisions that are none: `check` reports these, and they say nothing."""
+    listed = list(found)
+    lost = {id(each): (each.a.text or "").strip("'") for each in listed if _is_lost_contact(each)}
+    if not lost:
+        return listed
+    unknown = {each.found for each in check(edited).diagnostics if each.rule is UNKNOWN_COLLISION}
+    return [each for each in listed if lost.get(id(each)) not in unknown]
+
+
+def _is_lost_contact(found: Difference) -> bool:
+    return "/contact/collision" in (found.aspect or "") and found.b.text is None
 
 
 def _in_engines(file: EditedFile, made: Conversion, back: str, to: Language) -> tuple[tuple[str, ...], str]:
