@@ -19,7 +19,7 @@ from collections.abc import Mapping
 from typing import TypeVar
 
 from twinform.ir import Document, Element, Format, Model, Node, Opaque, rewrite
-from twinform.passes.carriers.carriers import NAMESPACE, bits_of_ours
+from twinform.passes.carriers.carriers import KEPT, NAMESPACE, ROOT, bits_of_ours
 from twinform.schemas import parse_version, versions_of
 
 AnyNode = TypeVar("AnyNode", bound=Node)
@@ -125,9 +125,16 @@ def without_provenance(model: Model) -> Model:
 
 
 def came_from(model: Model, format_: Format) -> bool:
-    """Whether a model was converted from a format."""
+    """Whether a model was converted from a format; one that was read of MJCF is in the terms of SDF."""
     found = find_annotation(model, FROM)
-    return found is not None and found.get("format") == format_.value
+    if found is None:
+        return format_ is Format.SDF and _was_read_of_mjcf(model)
+    return found.get("format") == format_.value
+
+
+def _was_read_of_mjcf(model: Model) -> bool:
+    kept = (part.element for part in model.opaque if part.element is not None and part.element.name == KEPT)
+    return any(each.find(ROOT) is not None for each in kept)
 
 
 def wrote_scopes(model: Model) -> bool:

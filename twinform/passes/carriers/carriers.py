@@ -45,6 +45,8 @@ PREFIX = "tf"
 _OURS = f"{{{NAMESPACE}}}"
 KEPT = f"{_OURS}mjcf"
 """The element in which a node keeps what only MJCF says of it."""
+ROOT = "mujoco"
+"""The section by which a model or world says that it was read of MJCF: `<tf:mjcf><mujoco/></tf:mjcf>`."""
 
 Attributes = tuple[tuple[str, str], ...]
 

@@ -29,10 +29,10 @@ from twinform.compiler.resolve_uris import LocalAssets
 from twinform.ir import Document, Element, Format, Frame, Joint, Light, Link, Model, World
 from twinform.ir.frames import WORLD
 from twinform.passes.carriers.annotations import MADE_NAME, WORLDBODY, annotation, with_annotation
-from twinform.passes.carriers.carriers import NAMESPACE, PREFIX
+from twinform.passes.carriers.carriers import NAMESPACE, PREFIX, ROOT
 from twinform.passes.legalise.to_mjcf.actuator_efforts import Actuator, efforts
 from twinform.passes.legalise.to_mjcf.file_models import UNNAMED_MODEL
-from twinform.passes.legalise.to_mjcf.kept_mjcf import KNOWN, ROOT
+from twinform.passes.legalise.to_mjcf.kept_mjcf import KNOWN
 from twinform.passes.legalise.to_mjcf.writing_context import safe_name
 from twinform.passes.shared.mesh_solids import Meshes
 from twinform.passes.shared.nodes import reserve_name

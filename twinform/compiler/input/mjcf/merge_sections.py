@@ -1,6 +1,7 @@
 """Merges the sections of MJCF that a file writes more than once, as included files do."""
 
-from twinform.passes.legalise.to_mjcf.kept_mjcf import KNOWN, ROOT, SINGLE
+from twinform.passes.carriers.carriers import ROOT
+from twinform.passes.legalise.to_mjcf.kept_mjcf import KNOWN, SINGLE
 from twinform.schemas import XmlElement
 
 _LISTS = KNOWN - SINGLE - {"default", ROOT}

@@ -13,7 +13,6 @@ from twinform.passes.carriers.annotations import (
     without_synthesized,
 )
 from twinform.passes.framework.pass_base import ModelPass
-from twinform.passes.legalise.to_mjcf.kept_mjcf import ROOT, kept_elements
 from twinform.passes.shared.nodes import unique_name
 
 
@@ -35,7 +34,7 @@ class HoldRoot(ModelPass):
         # What is in a <gazebo> element closes loops for others.
         children = {joint.child for joint in model.joints if find_annotation(joint, EXTENSION) is None}
         root = next((link for link in model.links if link.name not in children), None)
-        may_float = came_from(model, Format.SDF) or any(each.name == ROOT for each in kept_elements(model))
+        may_float = came_from(model, Format.SDF)
         held = [joint for joint in model.joints if joint.parent == WORLD]
         if len(held) == 1 and not may_float:
             joints = (without_synthesized(joint) if joint is held[0] else joint for joint in model.joints)

@@ -13,11 +13,9 @@ from pathlib import PurePosixPath
 
 from twinform.ir import Collision, Element, Joint, Node, Visual
 from twinform.ir.transform import rounded_number
-from twinform.passes.carriers.carriers import KEPT
+from twinform.passes.carriers.carriers import KEPT, ROOT
 from twinform.schemas import format_value
 
-ROOT = "mujoco"
-"""The section by which a model or world says that it was read of MJCF: `<tf:mjcf><mujoco/></tf:mjcf>`."""
 FORCE = ("actuatorfrclimited", "actuatorfrcrange")
 """The attributes of a joint that limit the forces of all its actuators together."""
 _POLYNOMIALS = ("damping", "stiffness")

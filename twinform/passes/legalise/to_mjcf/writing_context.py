@@ -19,12 +19,12 @@ from twinform.ir.record import Sourced
 from twinform.ir.scopes import SCOPE, scoped_models
 from twinform.ir.transform import Transform
 from twinform.passes.carriers.annotations import MADE_NAME, find_annotation
-from twinform.passes.carriers.carriers import Keeper
+from twinform.passes.carriers.carriers import ROOT, Keeper
 from twinform.passes.carriers.old_names import source_name
 from twinform.passes.framework.assets import NO_ASSETS, Assets
 from twinform.passes.legalise.to_mjcf.contact_plan import ContactPlan
 from twinform.passes.legalise.to_mjcf.friction import Friction, friction_priorities
-from twinform.passes.legalise.to_mjcf.kept_mjcf import ROOT, asset_name, kept_elements
+from twinform.passes.legalise.to_mjcf.kept_mjcf import asset_name, kept_elements
 from twinform.passes.legalise.to_mjcf.mesh_colors import Rgba, Several
 from twinform.passes.legalise.to_mjcf.rotors import Rotor, rotors_of
 from twinform.passes.legalise.to_sdf.joint_types import FLOATING
