@@ -10,6 +10,7 @@ from typing import NamedTuple
 from twinform.diagnostics import rules
 from twinform.ir import Element, Link, Model
 from twinform.ir.frames import WORLD
+from twinform.ir.geometry import Empty
 from twinform.ir.kinematic_tree import JointBetween
 from twinform.passes.carriers.annotations import MADE_NAME, WORLDBODY, find_annotation, is_synthesized
 from twinform.passes.carriers.joint_chains import part_of
@@ -205,5 +206,12 @@ def is_of_world(model: Model) -> bool:
     if not model.static or model.pose or len(model.links) != 1 or find_annotation(model, MADE_NAME) is None:
         return False
     link = model.links[0]
-    # The world has no mass: a link that is read of its shapes has that which SDF gives to any link.
-    return link.name == model.name == WORLDBODY and not link.pose and has_usual_weight(link)
+    # The world has no mass, and no gravity that could be off: a link that is read of its shapes has what SDF gives to
+    # any link. Without shapes there is nothing to read.
+    is_usual = not link.pose and link.gravity is None and has_usual_weight(link)
+    return link.name == model.name == WORLDBODY and is_usual and _has_shapes(link)
+
+
+def _has_shapes(link: Link) -> bool:
+    shapes = (each.geometry.shape for each in (*link.visuals, *link.collisions) if each.geometry)
+    return any(not isinstance(each, Empty | None) for each in shapes) or any(map(is_shape, kept_elements(link)))
