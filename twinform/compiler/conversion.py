@@ -24,10 +24,11 @@ from twinform.compiler.resolve_uris import LocalAssets
 from twinform.dataclass import dataclass
 from twinform.diagnostics import Diagnostic, DiagnosticSink, Ledger, LineOrigins, SideFile
 from twinform.diagnostics.rules import MISSING_ATTRIBUTE, MISSING_LIMIT, OUTSIDE_VERSION
-from twinform.ir import Document, Format, Include
+from twinform.ir import Document, Format, Include, untyped_elements
 from twinform.ir.verify import verify
 from twinform.notebooks import draw
 from twinform.passes import PassError, PassInstrumentation, Pipeline
+from twinform.passes.carriers.carriers import KEPT, bits_of_ours
 from twinform.passes.legalise.folded_parts import each_folded_once
 from twinform.passes.sdf_versions import has_early_frames
 from twinform.passes.shared.candidates import candidates, name_once_expanded, wanted_includes
@@ -204,7 +205,7 @@ def _convert_document(
         kept_words = mixed_words(loaded) if loaded.mixed else None
         comments = comments_of(loaded, document, request.to, request.model)
         document, text = written(changed, request, sink, instrumentation, kept=kept_words, comments=comments)
-        if text and request.to == "mjcf" and changed.format is not Format.MJCF:
+        if text and request.to == "mjcf" and _keeps_mjcf(changed):
             _check_mjcf(document, sink, load_options)
     if sink.has_errors:
         raise CompileError(tuple(sink.diagnostics))
@@ -219,6 +220,12 @@ def _convert_document(
     origin = loaded.tree if loaded.content is None else loaded.content
     lines = loaded.origins.get(loaded.text_name)
     return Conversion(text, document, tuple(sink.diagnostics), ledger, origin, tuple(sink.side_files), lines)
+
+
+def _keeps_mjcf(document: Document) -> bool:
+    """Whether a document of URDF or SDF keeps anything of MJCF: what is written for all else MuJoCo reads."""
+    untyped = untyped_elements(document, having=bits_of_ours("mjcf"))
+    return document.format is not Format.MJCF and any(each.name == KEPT for each in untyped)
 
 
 def _check_mjcf(document: Document, sink: DiagnosticSink, load_options: LoadOptions) -> None:
