@@ -340,9 +340,11 @@ def _with_first_link(model: Model) -> Model:
 
 
 def _roots(model: Model) -> set[str]:
-    """The links that no other link holds, and that no joint of URDF leaves free."""
+    """The links that no other link holds, and that no joint of URDF leaves free, unless the world holds them now."""
     held = {each.child for each in model.joints if each.parent != WORLD}
-    return {each.name for each in model.links if each.name not in held and find_annotation(each, FLOATING) is None}
+    on_world = {each.child for each in model.joints} - held
+    free = {each.name for each in model.links if find_annotation(each, FLOATING) is not None} - on_world
+    return {each.name for each in model.links} - held - free
 
 
 def _without_holds(model: Model) -> Model:
