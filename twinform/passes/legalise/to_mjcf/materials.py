@@ -124,6 +124,8 @@ def _material(
     """The name of the material of a look; visuals that look alike share one."""
     key = ("material", found.rgba, found.material, tuple(textures))
     if key not in context.files:
+        if not context.is_of_mjcf:  # then what is kept was put into the file by somebody, and is about no visual
+            context.names.setdefault("material", set()).update(context.colors)
         name = context.name_in(body, "material", visual.name or "material", visual.location)
         asset = _asset([("name", name), ("rgba", found.rgba), *found.material], textures)
         context.add("asset", asset.copy(source=visual.source))
