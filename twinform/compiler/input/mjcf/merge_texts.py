@@ -11,7 +11,7 @@ from twinform.compiler.input.mjcf.carried_texts import CarriedText, are_of_sdf, 
 from twinform.compiler.input.mjcf.first_links import with_first_links
 from twinform.compiler.input.mjcf.joined_joints import join_joints, sensors_left
 from twinform.compiler.input.mjcf.merge_parts import merge_parts
-from twinform.compiler.input.mjcf.models_of_world import with_models, with_nested
+from twinform.compiler.input.mjcf.models_of_world import with_models, with_nested, without_moved_statics
 from twinform.compiler.input.mjcf.names import safe_name
 from twinform.compiler.input.mjcf.one_model import one_model
 from twinform.compiler.input.mjcf.renamed_parts import name_in_file, renamed_parts
@@ -164,7 +164,8 @@ class _Merged:
         links = self.merging.merge_all(between, tuple(without_annotation(each, WRITTEN) for each in self.links))
         ends = {WORLD, *(each.name for each in links), *(each.name for each in (*model.frames, *self.frames))}
         joints = self.merging.merge_all(joints, tuple(self._typed(joints, ends)))
-        kept = tuple(without_annotation(each, WRITTEN) for each in self._held_by(ends))
+        still = without_moved_statics(self._held_by(ends), model, self.sink)
+        kept = tuple(without_annotation(each, WRITTEN) for each in still)
         frames = self.merging.merge_all(model.frames, kept)
         model = model.copy(links=links, joints=joints, frames=frames)
         if partial is None:

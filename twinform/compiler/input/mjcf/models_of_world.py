@@ -4,12 +4,14 @@ What bodies of MJCF are called tells which model they are in: `arm::hand` is the
 of any other name, with what joints connect to it, is a model of its own in a world, which is called after it.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
+from twinform.compiler.input.mjcf.carried_texts import report_stale
+from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Element, Format, Frame, Joint, Model, Opaque
 from twinform.ir.frames import WORLD
 from twinform.ir.scopes import SCOPE, scopes_of
-from twinform.passes.carriers.annotations import MADE_NAME, annotation, find_annotation
+from twinform.passes.carriers.annotations import MADE_NAME, annotation, find_annotation, without_annotation
 from twinform.passes.carriers.old_names import with_old_name
 from twinform.passes.legalise.changed_names import Names, renamed
 from twinform.passes.shared.nodes import unique_name
@@ -53,6 +55,37 @@ def with_nested(model: Model) -> Model:
     first = {scope: each.name for each in reversed(model.links) for scope in scopes_of(each.name)}
     frames = tuple(_frame_of(name, link, is_made=False) for name, link in first.items() if name not in known)
     return model.copy(frames=(*model.frames, *reversed(frames))) if frames else model
+
+
+def without_moved_statics(frames: Iterable[Frame], model: Model, sink: DiagnosticSink) -> Iterator[Frame]:
+    """Yield frames of models, those of static ones as of others where a body of the model is not fixed any more.
+
+    `model` is the flattened one with the joints that the file has. In a static model each body is fixed to the world,
+    or to another body of it.
+    """
+    holds = {each.child: each for each in model.joints}
+    for frame in frames:
+        scope = frame.name + SCOPE
+        inside = [holds.get(each.name) for each in model.links if each.name.startswith(scope)]
+        if is_static(frame) and not all(each is not None and _is_fixed_in(each, scope) for each in inside):
+            report_stale(sink, f"model {frame.name!r} is not static any more: it can move", frame.source)
+            nested = find_annotation(frame, NESTED) or Element.unchecked(name=NESTED)
+            rest = tuple(each for each in nested.children if each.name != "static")
+            mark = Opaque.unchecked(element=nested.copy(children=rest))
+            frame = frame.copy(opaque=(*without_annotation(frame, NESTED).opaque, mark))  # noqa: PLW2901 - the same frame
+        yield frame
+
+
+def is_static(frame: Frame) -> bool:
+    """Whether the model that a frame stands for is static."""
+    nested = find_annotation(frame, NESTED)
+    found = nested.find("static") if nested is not None else None
+    return found is not None and found.text in {"true", "1"}
+
+
+def _is_fixed_in(joint: Joint, scope: str) -> bool:
+    parent = joint.parent or ""
+    return joint.type == "fixed" and (parent == WORLD or parent.startswith(scope))
 
 
 def _is_between(joint: Joint) -> bool:

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 
+from twinform.compiler.input.mjcf.models_of_world import is_static
 from twinform.compiler.input.mjcf.renamed_parts import name_in_file
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Element, Format, Frame, Joint, Model
@@ -11,7 +12,6 @@ from twinform.passes.carriers.annotations import MADE_NAME, find_annotation, is_
 from twinform.passes.carriers.mjcf_texts import PART
 from twinform.passes.legalise.changed_names import Names, renamed
 from twinform.passes.legalise.nested_models import NameScopes, RestoreNested
-from twinform.passes.shared.poses import NESTED
 
 
 def nested_back(model: Model, frames: Sequence[Frame], bodies: Mapping[str, str], sink: DiagnosticSink) -> Model:
@@ -24,7 +24,7 @@ def nested_back(model: Model, frames: Sequence[Frame], bodies: Mapping[str, str]
         for part in _parts(frame):
             names |= _name(part, f"{frame.name}{SCOPE}", model, bodies)
     placed = tuple(_placed(each, bodies, model) for each in frames)
-    static = tuple(f"{each.name}{SCOPE}" for each in frames if _is_static(each))
+    static = tuple(f"{each.name}{SCOPE}" for each in frames if is_static(each))
     joints = tuple(each for each in model.joints if not _only_holds(each, static, names))
     whole = renamed(model.copy(joints=joints, frames=(*model.frames, *placed)), names, Format.SDF)
     for step in (NameScopes.unchecked(), RestoreNested.unchecked()):
@@ -63,12 +63,6 @@ def _placed(frame: Frame, bodies: Mapping[str, str], model: Model) -> Frame:
     to = bodies.get(frame.attached_to or "")
     pose = frame.pose and frame.pose.copy(relative_to=None)
     return frame.copy(attached_to=to, pose=pose, opaque=kept, source=model.source)
-
-
-def _is_static(frame: Frame) -> bool:
-    nested = find_annotation(frame, NESTED)
-    found = nested.find("static") if nested is not None else None
-    return found is not None and found.text in {"true", "1"}
 
 
 def _only_holds(joint: Joint, static: tuple[str, ...], names: Names) -> bool:
