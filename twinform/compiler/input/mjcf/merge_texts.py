@@ -249,7 +249,7 @@ class _Merged:
 
     def _settled(self, model: Model) -> Model | World:
         """The model with its contacts, which were computed while a robot was held by the world."""
-        model = _with_first_link(model)
+        model = model if self._source_version in _BEFORE_NAMED_FRAMES else _with_first_link(model)
         graph = FrameGraph(model)  # a link that was made for a model without any is gone
         holds = tuple(each for each in self.holds if graph.knows(each.child or ""))
         held = settle_contacts(model.copy(joints=(*holds, *model.joints)))

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 
 from twinform.ir import Format, Frame, Joint, Link, Model, replace_fields
+from twinform.ir.frames import WORLD
 from twinform.ir.scopes import SCOPE, scopes_of
 from twinform.passes.carriers.annotations import MADE_NAME, find_annotation, is_synthesized, without_annotation
 from twinform.passes.carriers.mjcf_texts import LOOP
@@ -32,6 +33,8 @@ def renamed_parts(
         scopes.update(scope for each in model.links for scope in scopes_of(name_in_file(each)))
     names: Names = {}
     free: list[tuple[Part, Node]] = []
+    if any(each.parent == WORLD for each in model.joints):  # which a link of this name would hold
+        links = [each for each in links if each.name != WORLD]
     for (part, field), partials in zip(_FIELDS, (links, joints, frames), strict=True):
         # Several joints that stand for one are joined later, under the names that they have.
         known = {written_name(each): each.name for each in partials if len(written_names(each)) == 1}
