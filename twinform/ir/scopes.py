@@ -1,6 +1,6 @@
 """The models of a document and those nested in them, with the scopes that their names have outside."""
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from itertools import chain
 
 from twinform.ir.document import Document
@@ -60,6 +60,17 @@ def scopes_of(name: str) -> Iterator[str]:
     while end >= 0:
         yield name[:end]
         end = name.find(SCOPE, end + 1)
+
+
+def scope_in(name: str, scopes: Collection[str]) -> str:
+    """The longest of some scopes that a name is in, such as `arm::` of `arm::hand`; the empty one where it is in none.
+
+    Before SDF 1.8 `::` may stand in the name of what is in no such model.
+    """
+    end = name.rfind(SCOPE)
+    while end >= 0 and name[: end + len(SCOPE)] not in scopes:
+        end = name.rfind(SCOPE, 0, end + 1)
+    return name[: end + len(SCOPE)] if end >= 0 else ""
 
 
 def nested_includes(model: Model) -> Iterator[Include]:

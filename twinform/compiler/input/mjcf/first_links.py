@@ -6,10 +6,9 @@ In MJCF a body is in the one that it hangs from, so that a link which stood firs
 from collections.abc import Iterator
 
 from twinform.ir import Link, Model
-from twinform.ir.scopes import SCOPE
+from twinform.ir.scopes import SCOPE, scope_in
 from twinform.passes.carriers.annotations import find_annotation, without_annotation
 from twinform.passes.carriers.mjcf_texts import FIRST
-from twinform.passes.legalise.to_mjcf.writing_context import scope_of
 from twinform.passes.shared.poses import NESTED
 from twinform.schemas import in_order
 
@@ -17,9 +16,10 @@ from twinform.schemas import in_order
 def with_first_links(model: Model) -> Model:
     """The flattened model with the first link of each of its models before the other links of that."""
     places = {link.name: float(place) for place, link in enumerate(model.links)}
+    scopes = {frame.name + SCOPE for frame in model.frames if find_annotation(frame, NESTED) is not None}
     own: dict[str, list[Link]] = {}
     for link in model.links:
-        own.setdefault(scope_of(link.name), []).append(link)
+        own.setdefault(scope_in(link.name, scopes), []).append(link)
     moved: dict[str, Link] = {}
     for scope, name in _first_links(model):
         links = own.get(scope, [])

@@ -11,7 +11,12 @@ from twinform.compiler.input.mjcf.carried_texts import CarriedText, are_of_sdf, 
 from twinform.compiler.input.mjcf.first_links import with_first_links
 from twinform.compiler.input.mjcf.joined_joints import join_joints, sensors_left
 from twinform.compiler.input.mjcf.merge_parts import merge_parts
-from twinform.compiler.input.mjcf.models_of_world import with_models, with_nested, without_moved_statics
+from twinform.compiler.input.mjcf.models_of_world import (
+    with_joints_between,
+    with_models,
+    with_nested,
+    without_moved_statics,
+)
 from twinform.compiler.input.mjcf.names import safe_name
 from twinform.compiler.input.mjcf.one_model import one_model
 from twinform.compiler.input.mjcf.renamed_parts import name_in_file, renamed_parts
@@ -36,6 +41,7 @@ from twinform.passes.carriers.annotations import (
     came_from,
     find_annotation,
     is_synthesized,
+    may_write_scopes,
     with_annotation,
     without_annotation,
     without_synthesized,
@@ -122,9 +128,11 @@ class _Merged:
         model = without_assets(model, self.spellings.agreed)
         report_unmerged(self.sink, self.merging.stale)
         if self._is_of_world:
-            model = with_models(model)
-        elif not self._is_of_urdf:
+            model = with_models(model, in_models=self._has_scopes)
+        elif self._has_scopes:
             model = with_nested(model)
+        else:
+            model = with_joints_between(model, in_models=False)
         document = self._as_document(self._restored(with_first_links(model)))
         if any(each.type == "gearbox" for each in self.joints):
             document = rewrite(document, Model, lambda each: without_their_mimics(each, self.sink))
@@ -132,7 +140,8 @@ class _Merged:
 
     def _named(self, model: Model) -> Model:
         """The model whose parts have the names that they had before they were written."""
-        named = renamed_parts(model, self.links, self.joints, self.frames, has_scopes=not self._is_of_urdf)
+        scopes = {"has_scopes": self._has_scopes, "is_free": may_write_scopes(self._source_version or "")}
+        named = renamed_parts(model, self.links, self.joints, self.frames, **scopes)
         self.names = {name_in_file(old): new.name for old, new in zip(model.joints, named.joints, strict=True)}
         return named
 
@@ -269,9 +278,11 @@ class _Merged:
         return self.world is not None or self._are_several
 
     @property
-    def _is_of_urdf(self) -> bool:
-        """Whether the source was a URDF, where `::` means nothing."""
-        return any(came_from(each, Format.URDF) for each in nodes_of(self.texts, "model") if isinstance(each, Model))
+    def _has_scopes(self) -> bool:
+        """Whether `::` in a name stands between a model and a part of it: in URDF and in older SDF it means nothing."""
+        models = (each for each in nodes_of(self.texts, "model") if isinstance(each, Model))
+        is_of_urdf = any(came_from(each, Format.URDF) for each in models)
+        return not is_of_urdf and not may_write_scopes(self._source_version or "")
 
     @property
     def _are_several(self) -> bool:

@@ -18,10 +18,11 @@ from twinform.passes.shared.nodes import unique_name
 from twinform.passes.shared.poses import NESTED
 
 
-def with_models(model: Model) -> Model:
+def with_models(model: Model, *, in_models: bool) -> Model:
     """The flattened model of a world, in which each link has the name of a model before its own.
 
-    Models that no carrier tells of have frames that stand for them, where their first links are.
+    Models that no carrier tells of have frames that stand for them, where their first links are; with `in_models`, so
+    do those in these models.
     """
     loose = [each.name for each in model.links if SCOPE not in each.name]
     names: Names = {}
@@ -38,21 +39,22 @@ def with_models(model: Model) -> Model:
         }
         frames.append(_frame_of(name, name + SCOPE + links[0], is_made=True))
     model = renamed(model, names, Format.SDF) if names else model
-    return with_nested(model.copy(frames=(*model.frames, *frames)) if frames else model)
+    return with_nested(model.copy(frames=(*model.frames, *frames)) if frames else model, in_models=in_models)
 
 
-def with_nested(model: Model) -> Model:
+def with_nested(model: Model, *, in_models: bool = True) -> Model:
     """The model with a frame for each model in it that only names tell of, where the first link of that is.
 
-    A joint between two of them is in neither, and has `_` for `::` in its name, with a note of that in the file.
+    Without `in_models`, a link is in one model; what else its name has before `::` is part of a name.
     """
-    between = {each.name: each.name.replace(SCOPE, "_") for each in model.joints if _is_between(each)}
-    if between:
-        noted = (with_old_name(each, between[each.name]) if each.name in between else each for each in model.joints)
-        names: Names = {("joint", name): new for name, new in between.items()}
-        model = renamed(model.copy(joints=tuple(noted)), names, Format.SDF)
+    model = with_joints_between(model, in_models=in_models)
     known = {each.name for each in model.frames}
-    first = {scope: each.name for each in reversed(model.links) for scope in scopes_of(each.name)}
+
+    def scopes(link: str) -> Iterable[str]:
+        found = [*scopes_of(link)]
+        return found if in_models else found[: not known.intersection(found)]
+
+    first = {scope: each.name for each in reversed(model.links) for scope in scopes(each.name)}
     frames = tuple(_frame_of(name, link, is_made=False) for name, link in first.items() if name not in known)
     return model.copy(frames=(*model.frames, *reversed(frames))) if frames else model
 
@@ -86,6 +88,21 @@ def is_static(frame: Frame) -> bool:
 def _is_fixed_in(joint: Joint, scope: str) -> bool:
     parent = joint.parent or ""
     return joint.type == "fixed" and (parent == WORLD or parent.startswith(scope))
+
+
+def with_joints_between(model: Model, *, in_models: bool) -> Model:
+    """The model whose joints between two models in it, which are in neither, have `_` for `::` in their names.
+
+    They have notes of their names in the file. Without `in_models`, those models count that have frames.
+    """
+    known = {each.name for each in model.frames if find_annotation(each, NESTED) is not None}
+    apart = (each for each in model.joints if _is_between(each) and (in_models or _top(each.name) in known))
+    between = {each.name: each.name.replace(SCOPE, "_") for each in apart}
+    if not between:
+        return model
+    noted = (with_old_name(each, between[each.name]) if each.name in between else each for each in model.joints)
+    names: Names = {("joint", name): new for name, new in between.items()}
+    return renamed(model.copy(joints=tuple(noted)), names, Format.SDF)
 
 
 def _is_between(joint: Joint) -> bool:

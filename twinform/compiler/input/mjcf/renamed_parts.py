@@ -19,11 +19,18 @@ _FIELDS: tuple[tuple[Part, str], ...] = (("link", "links"), ("joint", "joints"),
 
 
 def renamed_parts(
-    model: Model, links: Sequence[Link], joints: Sequence[Joint], frames: Sequence[Frame], *, has_scopes: bool
+    model: Model,
+    links: Sequence[Link],
+    joints: Sequence[Joint],
+    frames: Sequence[Frame],
+    *,
+    has_scopes: bool,
+    is_free: bool,
 ) -> Model:
     """The model with the names of its partial nodes, and otherwise those of the file.
 
-    With `has_scopes`, what a body is called tells which model in the model it is in.
+    With `has_scopes`, what a body is called tells which model in the model it is in; where names are `is_free`, `::`
+    may stand in any of them and means nothing.
 
     A joint that is fixed, and a link between two joints of one body, have no names there: they are known by what they
     hold, and by what holds them.
@@ -51,7 +58,7 @@ def renamed_parts(
         if (part, node.name) not in names:
             written = between.get(node.name) or name_in_file(node)
             scope = written.rpartition(SCOPE)[0]
-            wish = written if not scope or scope in scopes else node.name
+            wish = written if is_free or not scope or scope in scopes else node.name
             new = unique_name(wish, taken)
             names[part, node.name] = new
             taken.add(new)
@@ -117,8 +124,10 @@ def _name_fixed(model: Model, partials: Sequence[Joint], names: Names) -> None:
     """Name the fixed joints, by the links that they hold."""
     tree = (each for each in partials if find_annotation(each, LOOP) is None)
     fixed = {each.child: each.name for each in tree if each.type == "fixed"}
+    written = {each.name: name_in_file(each) for each in model.links}
     for joint in model.joints:
-        child = names.get(("link", joint.child or ""), joint.child)
+        link = joint.child or ""
+        child = names.get(("link", link)) or written.get(link)
         old = fixed.get(child)
         if joint.type == "fixed" and old is not None and ("joint", joint.name) not in names:
             names["joint", joint.name] = old

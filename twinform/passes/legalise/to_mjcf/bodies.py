@@ -22,7 +22,7 @@ from twinform.passes.legalise.to_mjcf.kept_mjcf import is_shape, kept_elements, 
 from twinform.passes.legalise.to_mjcf.lights import body_lights
 from twinform.passes.legalise.to_mjcf.sensors import body_sensors, joint_sensors
 from twinform.passes.legalise.to_mjcf.sites import body_sites
-from twinform.passes.legalise.to_mjcf.writing_context import Body, MjcfContext, scope_of
+from twinform.passes.legalise.to_mjcf.writing_context import Body, MjcfContext
 
 _INSIDE = frozenset({"camera", "site", "light", "geom", "plugin", "composite", "flexcomp", "attach"})
 """What a link keeps of its body that SDF has nothing for, such as a camera that follows another body."""
@@ -126,9 +126,9 @@ class _BodyTree:
 
     def _body(self, name: str, hold: Hold, above: dict[str, Body]) -> Body:
         link = self.tree.links[name]
-        own = self.context.old_name("body", scope_of(name), link)
+        own = self.context.old_name("body", self.context.scope_of(name), link)
         # Of a URDF with nothing but a link `world` MJCF has the name that SDF has: the world itself has the other.
-        wish = self.context.wish("body", scope_of(name), link.name if own == WORLD else own)
+        wish = self.context.wish("body", self.context.scope_of(name), link.name if own == WORLD else own)
         written = WORLD if name == self.world else self.context.name("body", wish, link) or name
         self.context.note_made_name(
             "body", link, written, f"{above[hold.parent].link.name}_body" if hold.parent else "body"
@@ -139,7 +139,7 @@ class _BodyTree:
             or any(each.type != "fixed" for each in hold.joints)
             or (hold.parent is not None and above[hold.parent].moves)
         )
-        return Body(name, scope_of(name), link, written, moves)
+        return Body(name, self.context.scope_of(name), link, written, moves)
 
     def _report_weightless(self, bodies: dict[str, Body]) -> None:
         """Report bodies that MuJoCo refuses because they move and weigh nothing, with all that is fixed to them."""

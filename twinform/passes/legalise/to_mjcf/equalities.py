@@ -17,7 +17,7 @@ from twinform.ir.transform import Transform, rounded
 from twinform.passes.carriers.old_names import source_name
 from twinform.passes.legalise.to_mjcf.elements import Value, make_element
 from twinform.passes.legalise.to_mjcf.kept_mjcf import with_kept_equality
-from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext, scope_of
+from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext
 
 _BALLS = frozenset({"ball", "spherical"})
 _HINGES = frozenset({"revolute", "continuous"})
@@ -61,7 +61,7 @@ def _close(context: MjcfContext, between: JointBetween) -> None:
 
 
 def _name(context: MjcfContext, between: JointBetween) -> str:
-    return context.wish("equality", scope_of(between.name), source_name(between.joint))
+    return context.wish("equality", context.scope_of(between.name), source_name(between.joint))
 
 
 def _add(context: MjcfContext, between: JointBetween, elements: list[Element]) -> None:
@@ -80,7 +80,7 @@ def _equality(tag: str, name: str, attributes: list[tuple[str, Value]], joint: J
 
 def _points(context: MjcfContext, between: JointBetween) -> list[Vector3]:
     parent = between.parent if between.parent in context.tree.links else None
-    scope = scope_of(between.name)
+    scope = context.scope_of(between.name)
 
     def place(frame: str | None) -> Transform:
         name = between.name if frame is None else frame if frame == WORLD else scope + frame

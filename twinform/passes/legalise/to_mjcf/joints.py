@@ -18,7 +18,7 @@ from twinform.ir.transform import Transform, rounded
 from twinform.passes.carriers.joint_chains import CHAINS, TWO_AXES, metres_per_radian
 from twinform.passes.legalise.to_mjcf.elements import Value, make_element, position
 from twinform.passes.legalise.to_mjcf.kept_mjcf import FORCE, kept_joints, with_kept_joint
-from twinform.passes.legalise.to_mjcf.writing_context import Body, MjcfContext, scope_of
+from twinform.passes.legalise.to_mjcf.writing_context import Body, MjcfContext
 
 _KINDS: dict[JointType, str] = {
     "revolute": "hinge",
@@ -99,7 +99,7 @@ def _screw(context: MjcfContext, body: Body, between: JointBetween, at: Transfor
 
 
 def _wish(context: MjcfContext, between: JointBetween) -> str:
-    scope = scope_of(between.name)
+    scope = context.scope_of(between.name)
     return context.wish("joint", scope, context.old_name("joint", scope, between.joint))
 
 
@@ -155,7 +155,7 @@ def _direction(context: MjcfContext, body: Body, between: JointBetween, at: Tran
     if axis is None or not axis.expressed_in:
         return rounded(at.rotate(written))
     frame = axis.expressed_in
-    scoped = frame if frame == "world" else scope_of(between.name) + frame
+    scoped = frame if frame == "world" else context.scope_of(between.name) + frame
     return rounded(context.place(scoped, body.name, kind="joint").rotate(written))
 
 

@@ -21,7 +21,7 @@ from twinform.passes.legalise.to_mjcf.kept_mjcf import (
     kept_elements,
     merged,
 )
-from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext, scope_of
+from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext
 from twinform.passes.shared.document_uris import FILES_OF_MJCF
 from twinform.schemas.facts import named_kinds
 
@@ -52,7 +52,7 @@ class _Names:
                 key = (kind, written.rpartition(SCOPE)[2])
                 self._alone[key] = None if key in self._alone else written
         for (kind, name), now in context.former_names.items():
-            written = kinds[kind].get(scope_of(name) + now)
+            written = kinds[kind].get(context.scope_of(name) + now)
             if written is not None:
                 self._scoped.setdefault((kind, name), written)
 

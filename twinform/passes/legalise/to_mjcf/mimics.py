@@ -11,7 +11,7 @@ from twinform.ir.frames import FrameGraph
 from twinform.ir.joint import Mimic
 from twinform.passes.legalise.to_mjcf.elements import make_element
 from twinform.passes.legalise.to_mjcf.kept_mjcf import with_kept_equality
-from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext, scope_of
+from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext
 from twinform.passes.shared.joint_ends import UngearedError, relation
 
 _SCALAR = frozenset({"revolute", "continuous", "prismatic", "universal", "revolute2", "screw"})
@@ -28,7 +28,7 @@ def add_mimics(context: MjcfContext) -> None:
 
 def _add_mimic(context: MjcfContext, name: str, joint: Joint, number: int, mimic: Mimic) -> None:
     follower = _written(context, name, number)
-    leader = _written(context, scope_of(name) + (mimic.joint or ""), 1 if mimic.axis == "axis2" else 0)
+    leader = _written(context, context.scope_of(name) + (mimic.joint or ""), 1 if mimic.axis == "axis2" else 0)
     if follower is None or leader is None or follower == leader:
         message = f"joint {joint.name!r} cannot follow {mimic.joint!r} in MJCF"
         context.approximate(rules.UNKNOWN_LEADER, message, mimic.location)

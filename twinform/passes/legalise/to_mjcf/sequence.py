@@ -10,6 +10,7 @@ from twinform.passes.legalise.to_mjcf.hold_root import HoldRoot
 from twinform.passes.legalise.to_mjcf.write_mjcf import WriteMjcf
 from twinform.passes.sdf_versions import change_version, raise_words
 from twinform.passes.sdf_versions.clear_names import ClearNames
+from twinform.passes.sdf_versions.nest_models import NestModels
 from twinform.passes.sdf_versions.set_version import SetVersion
 from twinform.passes.sdf_versions.write_inertias import WriteInertias
 from twinform.request_options import USUAL, Requested
@@ -52,8 +53,13 @@ def to_mjcf(
 
 
 def _with_old_names(version: str | None, newest: str, requested: Requested) -> Iterator[Pass]:
-    """Yield the passes to the newest version of SDF, which mark what had a name that is free in MJCF."""
+    """Yield the passes to the newest version of SDF, which mark what had a name that is free in MJCF.
+
+    A name with `::` in it, which is no scope before 1.8, is a name like others in MJCF.
+    """
     for each in change_version(version, newest, requested):
+        if isinstance(each, NestModels):
+            continue
         yield each.model_copy(update={"marks": True}) if isinstance(each, ClearNames) else each
 
 

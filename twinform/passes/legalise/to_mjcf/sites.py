@@ -6,7 +6,7 @@ from twinform.ir.transform import Transform
 from twinform.passes.legalise.to_mjcf.elements import Value, make_element, placement
 from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements, with_kept
 from twinform.passes.legalise.to_mjcf.materials import with_known_material
-from twinform.passes.legalise.to_mjcf.writing_context import Body, MjcfContext, ScopedFrame, scope_of
+from twinform.passes.legalise.to_mjcf.writing_context import Body, MjcfContext, ScopedFrame
 
 HIDDEN = 4
 """The group of sites that stand for a frame or sensor: viewers of MuJoCo show the groups 0 to 2 unless told to."""
@@ -35,7 +35,7 @@ def _frame_site(context: MjcfContext, scoped: ScopedFrame, link: str | None) -> 
 
 def _name(context: MjcfContext, name: str, frame: Frame) -> str:
     """The name that a frame had in its source, unless that is the name of another frame here."""
-    wanted = context.wish("site", scope_of(name), context.old_name("site", scope_of(name), frame))
+    wanted = context.wish("site", context.scope_of(name), context.old_name("site", context.scope_of(name), frame))
     taken = context.names.setdefault("site", set())
     if wanted in taken:
         return name

@@ -16,7 +16,7 @@ from twinform.ir import Document, Element, Frame, Joint, Link, Model, Node, Pose
 from twinform.ir.frames import WORLD, Kind
 from twinform.ir.kinematic_tree import JointBetween, KinematicTree
 from twinform.ir.record import Sourced
-from twinform.ir.scopes import SCOPE, scoped_models
+from twinform.ir.scopes import SCOPE, scope_in, scoped_models
 from twinform.ir.transform import Transform
 from twinform.passes.carriers.annotations import MADE_NAME, find_annotation
 from twinform.passes.carriers.carriers import ROOT, Keeper
@@ -173,6 +173,14 @@ class MjcfContext:
         holder = self.holder
         tops = [("", holder)] if isinstance(holder, Model) else [(each.name + SCOPE, each) for each in holder.models]
         return tuple(found for scope, model in tops for found in scoped_models(model, scope))
+
+    def scope_of(self, name: str) -> str:
+        """The prefix of a scoped name: `arm::` of `arm::hand`."""
+        return scope_in(name, self._scopes)
+
+    @cached_property
+    def _scopes(self) -> frozenset[str]:
+        return frozenset(scope for scope, _ in self.models)
 
     @cached_property
     def has_visuals(self) -> bool:
@@ -414,11 +422,6 @@ def safe_name(name: str) -> str:
     """Return a name that SDF can hold: without `::`, and not one of those that it keeps for itself."""
     safe = name.replace("::", "__").strip() or "unnamed"
     return f"{safe.strip('_')}_" if safe.startswith("__") and safe.endswith("__") else safe
-
-
-def scope_of(name: str) -> str:
-    """The prefix of a scoped name: `arm::` of `arm::hand`."""
-    return name[: name.rindex(SCOPE) + len(SCOPE)] if SCOPE in name else ""
 
 
 def without_gearboxes(holder: Model | World) -> Model | World:
