@@ -22,7 +22,7 @@ from twinform.compiler.output.source_comments import Comments
 from twinform.compiler.request import ConversionRequest
 from twinform.compiler.resolve_uris import LocalAssets
 from twinform.dataclass import dataclass
-from twinform.diagnostics import Diagnostic, DiagnosticSink, Ledger, LineOrigins, SideFile
+from twinform.diagnostics import Diagnostic, DiagnosticSink, Ledger, LineOrigins, Severity, SideFile
 from twinform.diagnostics.rules import MISSING_ATTRIBUTE, MISSING_LIMIT, OUTSIDE_VERSION
 from twinform.ir import Document, Format, Include, untyped_elements
 from twinform.ir.verify import verify
@@ -235,7 +235,8 @@ def _check_mjcf(document: Document, sink: DiagnosticSink, load_options: LoadOpti
     found = DiagnosticSink(file=sink.file)
     context = Context(found, sink.file, Format.MJCF, written_version(document))
     check_written(document_tree(document), context, load_options)
-    sink.extend([located(each, document) for each in found.diagnostics if each.is_error])
+    refused = (each for each in found.diagnostics if each.is_error or each.refused)
+    sink.extend([replace(located(each, document), severity=Severity.ERROR) for each in refused])
 
 
 def _run_remedies(
