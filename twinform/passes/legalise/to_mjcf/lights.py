@@ -72,7 +72,8 @@ def unread_light(light: Light) -> Light | None:
     is_turned = light.pose is not None and not Transform.from_pose(light.pose).is_unturned
     colors = (light.diffuse or _OPAQUE, light.specular or _OPAQUE)
     is_bright = any(each[3:] != _OPAQUE[3:] or not all(0 <= part <= 1 for part in each) for each in colors)
-    if light.type not in _TYPES or is_turned or is_bright:
+    shines_nowhere = light.direction is not None and not any(light.direction)  # in MJCF it shines down
+    if light.type not in _TYPES or is_turned or is_bright or shines_nowhere:
         return light
     is_cone = light.type == "spot" and _is_sharp(untyped(light, "spot"))
     left = without_elements(light, {"light_on", "spot"} if is_cone else {"light_on"})
