@@ -22,6 +22,7 @@ from testbed.edits.plainly import Plainly
 from testbed.edits.trips import TRIPS, Draw, trips
 from testbed.mjcf.canonical_models import PACKAGES
 from testbed.output_files import kept
+from twinform.passes.includes.expand import has_includes
 
 OUT = output_files.OUT / "edits"
 MOST_BYTES = 400_000
@@ -138,6 +139,8 @@ def work(job: Job) -> list[Done]:
     if checked.document is None or not checked.accepted:
         return []
     among = robots(checked.document)
+    if job.edited == "mjcf" and len(among) > 1 and not has_includes(checked.document):
+        among = [None, *among[1:]]  # MJCF holds a world as a whole
     return [_worked(job, robot, max(1, job.edits // len(among)), random) for robot in among]
 
 
