@@ -66,7 +66,10 @@ def find_annotation(node: Node, kind: str) -> Element | None:
     if not node.opaque:
         return None
     name = f"{{{NAMESPACE}}}{kind}"
-    return next((part.element for part in node.opaque if part.element is not None and part.element.name == name), None)
+    for part in node.opaque:  # a generator would take twice as long, and all parts are asked
+        if part.element is not None and part.element.name == name:
+            return part.element
+    return None
 
 
 def without_annotation(node: AnyNode, *kinds: str) -> AnyNode:
