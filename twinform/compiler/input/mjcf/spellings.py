@@ -142,8 +142,10 @@ class Spellings:
         if note is None:
             return partial
         partial = without_annotation(partial, PARTS)
-        geoms = [geom for each in (note.text or "").splitlines() if (geom := self._geoms.get(each.strip())) is not None]
-        if digest_of([weight_parts(node), *(("geom", _attributes(each)) for each in geoms)]) == note.get("digest"):
+        names = [each.strip() for each in (note.text or "").splitlines()]
+        geoms = [geom for each in names if (geom := self._geoms.get(each)) is not None]
+        digest = digest_of([weight_parts(node), *(("geom", _attributes(each)) for each in geoms)])
+        if digest == note.get("digest") and not any(_has_more(each, names) for each in geoms):
             return partial
         report_stale(
             self._sink, "the inertia is no longer computed: its numbers or its shapes were edited", node.source
@@ -381,6 +383,13 @@ def _with_ends(node: Limit, partial: Limit) -> Limit:
     if any(own is None or kept is None or not _is_close(own, kept) for own, kept in ends):
         return node
     return node.copy(lower=None, upper=None)
+
+
+def _has_more(geom: XmlElement, names: Collection[str]) -> bool:
+    """Whether the body of a geom has one that may touch and has none of these names."""
+    body = geom.getparent()
+    others = () if body is None else (each for each in body.iterfind("geom") if each.get("name") not in names)
+    return any(each.get("contype") != "0" or each.get("conaffinity") != "0" for each in others)
 
 
 def _with_axes(node: Inertial, partial: Inertial) -> Inertial:
