@@ -258,7 +258,7 @@ class _Merged:
 
     def _settled(self, model: Model) -> Model | World:
         """The model with its contacts, which were computed while a robot was held by the world."""
-        model = model if self._source_version in _BEFORE_NAMED_FRAMES else _with_first_link(model)
+        model = _with_first_link(model, can_be_named=self._source_version not in _BEFORE_NAMED_FRAMES)
         graph = FrameGraph(model)  # a link that was made for a model without any is gone
         holds = tuple(each for each in self.holds if graph.knows(each.child or ""))
         held = settle_contacts(model.copy(joints=(*holds, *model.joints)))
@@ -343,12 +343,24 @@ class _Merged:
         report_stale(self.sink, message, node.source)
 
 
-def _with_first_link(model: Model) -> Model:
-    """The model, which names its first link where that of the world's own shapes is written before it."""
+def _with_first_link(model: Model, *, can_be_named: bool) -> Model:
+    """The model, which names its first link where that of the world's own shapes would be written before it.
+
+    In old SDF that cannot be said, and this one is written behind it.
+    """
     if came_from(model, Format.URDF) or model.canonical_link or not model.links:
         return model
     first, (written, _) = model.links[0], in_order([(each, None) for each in model.links])[0]
-    return model if written is first else model.copy(canonical_link=first.name)
+    if written is first:
+        return model
+    if can_be_named or first.source is None:
+        return model.copy(canonical_link=first.name)
+    line = first.source.line
+    later = (
+        each.copy(source=each.source._replace(line=max(line, each.source.line))) if each.source else each
+        for each in model.links
+    )
+    return model.copy(links=tuple(later))
 
 
 def _roots(model: Model) -> set[str]:
