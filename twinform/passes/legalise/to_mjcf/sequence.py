@@ -67,10 +67,11 @@ def _robot_on_the_world(version: str, requested: Requested, *, mixed: bool) -> I
     """Yield the passes from URDF to SDF, with one more that fixes the robot to the world of SDF."""
     from twinform.passes.legalise.changed_names import UniqueNames  # noqa: PLC0415 - see above
     from twinform.passes.legalise.to_sdf.mesh_uris import MeshUris  # noqa: PLC0415 - few conversions go this way
+    from twinform.passes.legalise.to_sdf.retarget import RetargetSdf  # noqa: PLC0415 - see above
     from twinform.passes.legalise.to_sdf.sequence import to_sdf  # noqa: PLC0415 - many passes
     from twinform.passes.legalise.world_link import WorldLink  # noqa: PLC0415 - see above
 
-    for each in to_sdf(version, requested, mixed_source=mixed):
+    for each in to_sdf(version, requested, mixed_source=mixed, scopes=False):
         match each:
             case MeshUris():
                 yield MeshUris.unchecked(carriers=each.carriers, rewrites=False)
@@ -79,5 +80,7 @@ def _robot_on_the_world(version: str, requested: Requested, *, mixed: bool) -> I
             case WorldLink():
                 yield each
                 yield HoldRoot.unchecked()  # from here on a joint may have the world as its parent
+            case RetargetSdf():
+                yield each.model_copy(update={"keeps_provenance": True})
             case _:
                 yield each

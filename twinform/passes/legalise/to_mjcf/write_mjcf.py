@@ -7,6 +7,7 @@ from typing import ClassVar
 from twinform.diagnostics import DiagnosticSink, Fate
 from twinform.ir import Document, Element, Format, Model, Opaque, World
 from twinform.ir.frames import FrameError
+from twinform.passes.carriers.annotations import has_mixed_words, source_version, without_provenance
 from twinform.passes.carriers.carriers import Keeper
 from twinform.passes.carriers.old_names import source_name
 from twinform.passes.framework.pass_base import AssetPass
@@ -68,13 +69,19 @@ class WriteMjcf(AssetPass):
             return document
         if not self.carriers:
             _drop_what_was_carried(sink)
+        before = source_version(document, Format.SDF)  # of a URDF that was SDF once
+        mixed = self.mixed or (before is not None and has_mixed_words(document))
+        if before is not None:
+            document = document.copy(models=tuple(map(without_provenance, document.models)))
         holder = holder_of(document)
         keeper = Keeper(sink, self.carriers)
         # MuJoCo looks meshes up by their paths, so that these have no prefix.
         replacer = ShapeReplacer(
             keeper, "MJCF", _LACKS.__contains__, self.shape_error, None, self.side_files, self.mesh_folder
         )
-        context = MjcfContext(document, holder, sink, keeper, replacer, self._assets, self.source_version, self.mixed)
+        context = MjcfContext(
+            document, holder, sink, keeper, replacer, self._assets, self.source_version, mixed, before
+        )
         try:
             _write_sections(context)
         except FrameError as error:

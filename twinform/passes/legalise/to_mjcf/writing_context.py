@@ -72,6 +72,7 @@ class MjcfContext:
         keeper: for what MJCF cannot say: carried, or dropped where no carriers are asked for.
         source_version: the version of SDF that the source had; None for URDF.
         mixed: whether the source has syntax of newer versions of SDF.
+        version_before: the version of SDF that a URDF was in before, which is back in terms of the newest one.
         assets: leads to the files that the document names.
         replacer: makes meshes that stand for shapes which MJCF lacks.
         names: the names in use, by kind (`body`, `joint`, `geom`, `site`, `mesh`, ...): each kind has its own.
@@ -102,6 +103,7 @@ class MjcfContext:
     assets: Assets = NO_ASSETS
     source_version: str | None = None
     mixed: bool = False
+    version_before: str | None = None
     numbers: dict[tuple[str, str], int] = field(default_factory=dict[tuple[str, str], int])
     names: dict[str, set[str]] = field(default_factory=dict[str, set[str]])
     written_bodies: dict[str, str] = field(default_factory=dict[str, str])
@@ -124,7 +126,7 @@ class MjcfContext:
     @property
     def version_read(self) -> str | None:
         """The version of SDF that was read."""
-        return self.source_version or self.document.version
+        return self.source_version or self.version_before or self.document.version
 
     @cached_property
     def tree(self) -> KinematicTree:

@@ -30,6 +30,8 @@ class RetargetSdf(Pass):
     version: str
     carriers: bool = True
     mixed: bool = False
+    keeps_provenance: bool = False
+    """Whether a model of SDF that is back stays annotated as such, for a pass that writes the version of its source."""
 
     def run(self, document: Document, sink: DiagnosticSink) -> Document:
         """The document as SDF."""
@@ -47,7 +49,8 @@ class RetargetSdf(Pass):
         """The model, annotated as one that came from URDF, unless it is one of SDF that is back."""
         if came_from(model, Format.SDF):
             links = tuple(without_annotation(link, BODY) for link in model.links)
-            return without_provenance(model.copy(links=links))
+            back = model.copy(links=links)
+            return back if self.keeps_provenance else without_provenance(back)
         if not self.carriers:
             return model
         model = without_provenance(model)
