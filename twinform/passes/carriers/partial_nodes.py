@@ -6,9 +6,10 @@ where the target does not say the node any more. So an edit of the target always
 """
 
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator
 from dataclasses import field
 from functools import cache
+from itertools import count
 from operator import is_
 from typing import NamedTuple, Protocol, TypeVar, cast
 
@@ -161,7 +162,12 @@ class Merging:
         merged = dict(zip(_keys((each, getattr(each, "name", None)) for each in mine), mine, strict=True))
         keys = _keys(((each, written_name(each)) for each in partials), len(merged))
         for key, partial in zip(keys, partials, strict=True):
-            if key in merged:
+            if key in merged and find_annotation(partial, PLACE) is not None:  # what has its name is another one
+                names = {*(name for _, name, _ in merged), *map(written_name, partials)}
+                other = self.added(_renamed(partial, names))
+                if other is not None:
+                    merged[type(other), getattr(other, "name", None), 0] = other
+            elif key in merged:
                 merged[key] = self.merge(merged[key], partial)
             elif (added := self.added(partial)) is not None:
                 merged[key] = added
@@ -183,6 +189,13 @@ class Merging:
             if added is not value and added != value:
                 update[name] = added
         return partial.copy(**update) if update else partial
+
+
+def _renamed(node: AnyNode, taken: Collection[str | None]) -> AnyNode:
+    """The node under a name that no other one has."""
+    name = getattr(node, "name", None)
+    free = (each for number in count(1) if (each := f"{name}_{number}") not in taken)
+    return node.copy(name=next(free))
 
 
 def _in_their_places(nodes: list[AnyNode]) -> tuple[AnyNode, ...]:
