@@ -21,11 +21,12 @@ from twinform.compiler.input.mjcf.restore_sensors import (
 from twinform.compiler.input.mjcf.spellings import Spellings
 from twinform.compiler.input.mjcf.written_models import with_written_models, without_stand_ins
 from twinform.diagnostics import DiagnosticSink
-from twinform.ir import Document, Frame, Joint, Link, Model, Node, Opaque, World, replace_fields, rewrite
+from twinform.ir import Document, Frame, Joint, Link, Model, Node, Opaque, Visual, World, replace_fields, rewrite
 from twinform.ir.frames import WORLD
 from twinform.ir.scopes import nested_models
 from twinform.passes.carriers.annotations import (
     MADE_NAME,
+    SAME_GEOM,
     annotation,
     find_annotation,
     with_annotation,
@@ -190,7 +191,8 @@ class _PartMerging:
             return node
         self._used.add(id(partial))
         named = _with_sensed_names(node, partial) if isinstance(node, Link) and isinstance(partial, Link) else node
-        return self._merging.merge(named, _bare(partial).copy(name=node.name))
+        merged = self._merging.merge(named, _bare(partial).copy(name=node.name))
+        return _with_twins(merged, named) if isinstance(merged, Link) and isinstance(named, Link) else merged
 
     def _merged_joint(self, joint: Joint, fixed: Mapping[str, Joint], chains: Mapping[str, Joint]) -> Joint:
         """A joint with what a carrier holds of it, if it is fixed, or was several by the name that it has now."""
@@ -201,6 +203,21 @@ class _PartMerging:
 
 
 AnyNode = TypeVar("AnyNode", bound=Node)
+
+
+def _with_twins(link: Link, read: Link) -> Link:
+    """A merged link whose visuals of geoms that touch too have the shape and place of these collisions, as read."""
+    read_as = {each.name: (each.geometry, each.pose) for each in read.collisions}
+    now = {each.name: (each.geometry, each.pose) for each in link.collisions}
+
+    def twin(visual: Visual) -> Visual:
+        as_read = (visual.geometry, visual.pose)
+        if find_annotation(visual, SAME_GEOM) is None or read_as.get(visual.name) != as_read or visual.name not in now:
+            return visual
+        geometry, pose = now[visual.name]
+        return visual.copy(geometry=geometry, pose=pose)
+
+    return link.copy(visuals=tuple(map(twin, link.visuals)))
 
 
 def _bare(partial: AnyNode) -> AnyNode:
