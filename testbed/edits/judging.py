@@ -128,7 +128,9 @@ def judge(
     news_plainly = [each for each in read if plain_key(each) not in before.differing_plainly]
     reasons = [explained(each, plainly, file) for each in news_plainly]
     differed = "an engine sees a difference before any edit" if before.differing_in_engines else ""
-    why = differed or before.not_read or not_read
+    # MuJoCo does not see what somebody has edited in a carrier, and that is to count.
+    carried = "a carrier itself was edited, which is to count" if in_engines and plainly is Plainly.NONE else ""
+    why = differed or before.not_read or not_read or carried
     if not why:
         found += [f"in an engine: {each}" for each in in_engines]
     found += [f"when it is back: {each.message}" for each in when_back if _key(each) not in before.differing_when_back]
