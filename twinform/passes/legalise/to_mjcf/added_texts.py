@@ -4,6 +4,7 @@ Links and joints go by the names of their bodies and joints, which a reader of t
 """
 
 from collections.abc import Iterable
+from typing import TypeVar
 
 from twinform.ir import (
     Collision,
@@ -21,6 +22,7 @@ from twinform.ir import (
     Visual,
     World,
     map_references,
+    replace_fields,
     walk,
 )
 from twinform.ir.frames import MODEL, WORLD
@@ -55,9 +57,10 @@ from twinform.passes.legalise.to_mjcf.nested_texts import frames_between, nested
 from twinform.passes.legalise.to_mjcf.options import SETTINGS, has_usual_settings
 from twinform.passes.legalise.to_mjcf.said_parts import without_elements
 from twinform.passes.legalise.to_mjcf.text_list import TextList
-from twinform.passes.legalise.to_mjcf.writing_context import KeptSensor
+from twinform.passes.legalise.to_mjcf.writing_context import KeptSensor, safe_name
 from twinform.passes.legalise.to_sdf.joint_types import FLOATING
 
+AnyShape = TypeVar("AnyShape", Visual, Collision)
 _MASKS = frozenset(f"contact/{each}" for each in MASKS)
 _OF_CONSTRAINTS = frozenset({"ball", "fixed"})
 """The types of joints that constraints are read as."""
@@ -94,7 +97,7 @@ class AddedTexts(TextList):
         left = remainder(_without_what_file_has(part), self._said_beside, self._notes_beside)
         if left is None or self._is_needless(left, part):
             return
-        left = map_references(left, self._name_in_file)
+        left = map_references(_with_names_of_sdf(left), self._name_in_file)
         names = [other for other in self.file.other_names(part) if other != WORLD]
         name = names[0] if len(names) == 1 else part.name
         own = name if self._is_named(part) and len(names) <= 1 else _own_name(part.name)
@@ -267,6 +270,18 @@ def _is_of_chain(joint: Joint) -> bool:
 
 def _is_slide_of_planar(joint: Joint) -> bool:
     return joint.type == "prismatic" and is_synthesized(joint)
+
+
+def _with_names_of_sdf(left: Node) -> Node:
+    """What is left of a part, whose shapes are called as they are read: SDF keeps some names of MJCF for itself."""
+    if not isinstance(left, Link):
+        return left
+
+    def named(shape: AnyShape) -> AnyShape:
+        return shape.copy(name=safe_name(shape.name)) if shape.name else shape
+
+    visuals, collisions = tuple(map(named, left.visuals)), tuple(map(named, left.collisions))
+    return replace_fields(left, visuals=visuals, collisions=collisions)
 
 
 def _without_hidden(joint: Joint) -> Joint:
