@@ -106,10 +106,11 @@ class Compiled:
         model = self.model
         dof = int(model.jnt_dofadr[number])
         limited = bool(model.jnt_limited[number])
+        ends = tuple(map(float, model.jnt_range[number]))
         strong = bool(model.jnt_actfrclimited[number]) and float(model.jnt_actfrcrange[number][1]) < UNLIMITED
         return JointFacts(
             int(model.jnt_type[number]),
-            tuple(map(float, model.jnt_range[number])) if limited else (),
+            ends if limited and not all(abs(each) >= UNLIMITED for each in ends) else (),
             tuple(map(float, model.jnt_actfrcrange[number])) if strong else (),
             float(model.dof_damping[dof]),
             float(model.dof_frictionloss[dof]),
