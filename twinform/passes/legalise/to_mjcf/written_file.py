@@ -29,14 +29,15 @@ class WrittenFile:
 
     Attributes:
         part: the link, joint or frame that is looked at; shapes are those of this link.
-        is_back: whether the model was a URDF before.
+        is_back: whether the source is a URDF.
     """
 
     def __init__(self, context: MjcfContext) -> None:
         self.context = context
         self.sections = context.sections
         self.part: Node = context.holder
-        self.is_back = isinstance(context.holder, Model) and came_from(context.holder, Format.URDF)
+        is_of_urdf = context.source_version is None
+        self.is_back = is_of_urdf and isinstance(context.holder, Model) and came_from(context.holder, Format.URDF)
 
     @cached_property
     def flat(self) -> Model:
