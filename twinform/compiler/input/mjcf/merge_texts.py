@@ -49,6 +49,7 @@ from twinform.passes.carriers.annotations import (
 from twinform.passes.carriers.carriers import NAMESPACE, is_carrier
 from twinform.passes.carriers.carriers import PREFIX as TF
 from twinform.passes.carriers.mjcf_texts import DOCUMENT, PREFIXES, SEVERAL
+from twinform.passes.carriers.old_names import source_name
 from twinform.passes.carriers.partial_nodes import WRITTEN, Merging, is_rest, written_names
 from twinform.passes.carriers.token_mass import UNSAID, restore_inertial, says_zero
 from twinform.passes.legalise.changed_names import RestoreNames
@@ -189,7 +190,8 @@ class _Merged:
     def _name(self, partial: Model | World) -> str:
         """The name of a model or world: that of the file, unless it has none or the one that was written."""
         written = self.root.get("model")
-        return partial.name if written in {None, partial.name} else safe_name(written or "")
+        is_same = written in {None, partial.name, source_name(partial)}
+        return partial.name if is_same else safe_name(written or "")
 
     def _typed(self, joints: Iterable[Joint], ends: set[str]) -> Iterable[Joint]:
         """The partial joints whose links are there; one that could not move goes where the file has another now."""

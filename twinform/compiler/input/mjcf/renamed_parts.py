@@ -7,7 +7,7 @@ from twinform.ir.frames import WORLD
 from twinform.ir.scopes import SCOPE, scopes_of
 from twinform.passes.carriers.annotations import MADE_NAME, find_annotation, is_synthesized, without_annotation
 from twinform.passes.carriers.mjcf_texts import LOOP
-from twinform.passes.carriers.old_names import NAME
+from twinform.passes.carriers.old_names import NAME, annotated_name
 from twinform.passes.carriers.partial_nodes import written_name, written_names
 from twinform.passes.legalise.changed_names import Names, renamed
 from twinform.passes.shared.nodes import unique_name
@@ -58,7 +58,8 @@ def renamed_parts(
         if (part, node.name) not in names:
             written = between.get(node.name) or name_in_file(node)
             scope = written.rpartition(SCOPE)[0]
-            wish = written if is_free or not scope or scope in scopes else node.name
+            is_kept = written == written.strip() and (is_free or not scope or scope in scopes)
+            wish = written if is_kept else node.name
             new = unique_name(wish, taken)
             names[part, node.name] = new
             taken.add(new)
@@ -90,7 +91,7 @@ def with_hidden_names(model: Model, partials: Sequence[Joint]) -> Model:
 def name_in_file(node: Node) -> str:
     """The name of a part in the file."""
     found = find_annotation(node, NAME)
-    return found.text if found is not None and found.text else node.name
+    return (annotated_name(found) if found is not None else "") or node.name
 
 
 def _name_hidden(model: Model, partials: Sequence[Joint], names: Names) -> None:
