@@ -65,11 +65,13 @@ def without_moved_statics(frames: Iterable[Frame], model: Model, sink: Diagnosti
     `model` is the flattened one with the joints that the file has. In a static model each body is fixed to the world,
     or to another body of it.
     """
-    holds = {each.child: each for each in model.joints}
+    holds: dict[str | None, list[Joint]] = {}
+    for each in model.joints:  # one that closes a loop holds a link besides
+        holds.setdefault(each.child, []).append(each)
     for frame in frames:
         scope = frame.name + SCOPE
-        inside = [holds.get(each.name) for each in model.links if each.name.startswith(scope)]
-        if is_static(frame) and not all(each is not None and _is_fixed_in(each, scope) for each in inside):
+        inside = [holds.get(each.name, ()) for each in model.links if each.name.startswith(scope)]
+        if is_static(frame) and not all(any(_is_fixed_in(joint, scope) for joint in each) for each in inside):
             report_stale(sink, f"model {frame.name!r} is not static any more: it can move", frame.source)
             nested = find_annotation(frame, NESTED) or Element.unchecked(name=NESTED)
             rest = tuple(each for each in nested.children if each.name != "static")
