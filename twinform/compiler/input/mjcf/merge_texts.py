@@ -46,11 +46,12 @@ from twinform.passes.carriers.annotations import (
     without_annotation,
     without_synthesized,
 )
-from twinform.passes.carriers.carriers import NAMESPACE, is_carrier
+from twinform.passes.carriers.carriers import NAMESPACE, bits_of_ours, is_carrier
 from twinform.passes.carriers.carriers import PREFIX as TF
 from twinform.passes.carriers.mjcf_texts import DOCUMENT, PREFIXES, SEVERAL
 from twinform.passes.carriers.old_names import source_name
 from twinform.passes.carriers.partial_nodes import WRITTEN, Merging, is_rest, written_names
+from twinform.passes.carriers.repeated_parts import AGAIN, unwrap_repeated
 from twinform.passes.carriers.token_mass import UNSAID, restore_inertial, says_zero
 from twinform.passes.legalise.changed_names import RestoreNames
 from twinform.passes.legalise.gearboxes import without_their_mimics
@@ -69,6 +70,7 @@ _BEFORE_NAMED_FRAMES = frozenset(each for each in versions_of("sdf") if parse_ve
 """The versions of SDF in which axes and poses name no frames."""
 _WITH_AUTOMATIC = "1.11"
 """The first version of SDF in which inertias are computed; what they became in MJCF was compared by then."""
+AnyNode = TypeVar("AnyNode", bound=Node)
 AnyPart = TypeVar("AnyPart", Link, Joint, Frame, Model)
 
 
@@ -137,7 +139,14 @@ class _Merged:
         document = self._as_document(self._restored(with_first_links(model)))
         if any(each.type == "gearbox" for each in self.joints):
             document = rewrite(document, Model, lambda each: without_their_mimics(each, self.sink))
-        return self._in_version(document)
+        return self._in_version(rewrite(document, Node, self._with_repeated, having=bits_of_ours(AGAIN)))
+
+    def _with_repeated(self, node: AnyNode) -> AnyNode:
+        """The node with what repeats an element of it, as long as it has that."""
+        node, gone = unwrap_repeated(node)
+        for name in gone:
+            self._stale(f"there is no <{name}> any more that a second one repeats", node)
+        return node
 
     def _named(self, model: Model) -> Model:
         """The model whose parts have the names that they had before they were written."""

@@ -369,7 +369,9 @@ def _with_turn(node: Joint, partial: Joint) -> Joint:
 
 
 def _with_reference(node: Mimic, partial: Mimic) -> tuple[Mimic, Mimic]:
-    """The mimic of the source, if the polynomial of the file is that of it."""
+    """The mimic of the source, if the polynomial of the file is that of it, and does not say all of it."""
+    if partial.joint is None:
+        return node, partial
     factor = multiplier(partial)
     offset = (partial.offset or 0.0) - factor * (partial.reference or 0.0)
     same = _is_close(multiplier(node), factor) and _is_close(node.offset or 0.0, offset)

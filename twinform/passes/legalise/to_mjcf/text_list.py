@@ -5,6 +5,7 @@ from twinform.ir import Node
 from twinform.passes.carriers.carriers import NAMESPACE
 from twinform.passes.carriers.mjcf_texts import node_element, text_element, text_name, xml_data
 from twinform.passes.carriers.partial_nodes import REST
+from twinform.passes.carriers.repeated_parts import AGAIN
 from twinform.passes.legalise.to_mjcf.spelling_notes import SpellingNotes
 from twinform.passes.legalise.to_mjcf.what_is_said import WhatIsSaid
 from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext
@@ -13,6 +14,7 @@ from twinform.schemas import XmlElement
 
 _OURS = f"{{{NAMESPACE}}}"
 _MARK = f"{_OURS}{REST}"
+_REPEATED = f"{_OURS}{AGAIN}"
 _GROUPS = frozenset({"axis", "axis2", "limit", "dynamics", "surface"})
 """Elements that only group others: what is in them counts, and not they themselves."""
 
@@ -43,6 +45,9 @@ class TextList:
         """Enter what a partial element holds into the ledger; what is of our own namespace is in it already."""
         for child in xml:
             tag = str(child.tag)
+            if tag == _REPEATED:
+                self._account(child, what, node)
+                continue
             # By its child a joint is known that has no name in MJCF, which says it as well.
             if tag.startswith(_OURS) or (tag == "child" and _is_rest(xml)):
                 continue

@@ -11,6 +11,7 @@ from twinform.passes.carriers.annotations import with_annotation
 from twinform.passes.carriers.carriers import bits_of_ours, is_carrier
 from twinform.passes.carriers.mjcf_texts import DOCUMENT, FIRST
 from twinform.passes.carriers.partial_nodes import remainder
+from twinform.passes.carriers.repeated_parts import wrap_repeated
 from twinform.passes.legalise.to_mjcf.added_texts import AddedTexts
 from twinform.passes.legalise.to_mjcf.text_list import TextList
 from twinform.passes.legalise.to_mjcf.writing_context import MjcfContext
@@ -48,7 +49,8 @@ class _AllTexts(TextList):
     def _add(self, kind: str, name: str, node: Node) -> None:
         """Add the text of a node, unless MJCF says all of it, and enter what it holds into the ledger."""
         self.file.part = node
-        left = remainder(self._without_kept(node), self.said, self.notes)
+        whole = rewrite(self._without_kept(node), Node, wrap_repeated)
+        left = remainder(whole, self.said, self.notes)
         if left is None and isinstance(node, World):  # what is a model has no world around it
             left = World.unchecked(name=node.name)
         if left is not None:
