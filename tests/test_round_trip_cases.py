@@ -32,7 +32,7 @@ def test_it_comes_back(path: Path) -> None:
 def test_it_comes_home_from_mjcf(path: Path) -> None:
     """A world does so as a whole."""
     document = twinform.load(path)
-    trip = RoundTrip(path.read_bytes(), document.format, document.version)
+    trip = RoundTrip.of_whole(path, document)
     there = twinform.convert(path, to="mjcf")
     assert list(trip.mismatches(trip.back(there.text))) == []
     assert there.source is not None

@@ -76,7 +76,7 @@ def _trip(file: CorpusFile, document: Document, robot: str | None) -> RoundTrip:
     text = file.path.read_bytes()
     if _XACRO in text:  # it comes back expanded
         text = twinform.convert(file.path, to="urdf", paths=file.paths).text.encode()
-    return RoundTrip(text, document.format, document.version)
+    return RoundTrip.of_whole(text, document)
 
 
 def _lost(trip: RoundTrip, there: str) -> Iterator[Mismatch]:

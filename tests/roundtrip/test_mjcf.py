@@ -21,7 +21,7 @@ _JOINTS = ("revolute", "continuous", "prismatic", "fixed")
 
 
 def _mismatches(model: Document) -> list[str]:
-    trip = RoundTrip.of(text_of(model).encode(), model)
+    trip = RoundTrip.of_whole(text_of(model).encode(), model)
     try:
         there = convert(trip.text, to="mjcf").text
     except CompileError as error:
@@ -41,6 +41,12 @@ def test_a_robot_comes_back_from_mjcf(robot: Document) -> None:
 @given(strategies.sdf_models(max_links=5))
 def test_a_model_comes_back_from_mjcf(model: Document) -> None:
     assert _mismatches(model) == []
+
+
+@_SETTINGS
+@given(strategies.worlds(max_models=3))
+def test_a_world_comes_back_from_mjcf(world: Document) -> None:
+    assert _mismatches(world) == []
 
 
 _PUCK = f"""

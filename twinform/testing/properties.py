@@ -39,11 +39,11 @@ def assert_valid(model: Model, *, strict: bool = False) -> Document:
 
 
 def assert_round_trip(model: Model, *, via: Language | None = None, sdf_version: str | None = None) -> None:
-    """Assert that a model survives a round trip: written and read, or through the format `via` and back.
+    """Assert that a model survives a round trip: written and read, or through the language `via` and back.
 
-    Written and read in its own format or JSON, it is the same document. Through the other format it is the same robot,
-    with every name, attribute and text that is not the spelling of a default, and with nothing more
-    (`twinform.normal_form`). `sdf_version` is the version of SDF to go through.
+    Written and read in its own language or JSON, it is the same document. Through another one it is the same robot, and
+    through MJCF a world the same world, with every name, attribute and text that is not the spelling of a default, and
+    with nothing more (`twinform.normal_form`). `sdf_version` is the version of SDF to go through.
     """
     document = assert_valid(model)
     source, _ = _text(model if not isinstance(model, Path) or model.suffix == ".xacro" else document)
@@ -53,7 +53,8 @@ def assert_round_trip(model: Model, *, via: Language | None = None, sdf_version:
         return
     there = _converted(source, via, sdf_version if via == "sdf" else None)
     assert_valid(there)
-    trip = RoundTrip.of(source, document)
+    is_whole = via == "mjcf" and not has_includes(document)
+    trip = RoundTrip.of_whole(source, document) if is_whole else RoundTrip.of(source, document)
     try:
         mismatches = [one.message for one in trip.mismatches(trip.back(there))]
     except CompileError as error:
@@ -151,10 +152,15 @@ class RoundTrip:
         takes part, with its includes expanded, since URDF has neither worlds nor includes.
         """
         if _is_robot(document):
-            text = source.read_bytes() if isinstance(source, Path) else source
-            return cls(text, document.format, document.version)
+            return cls.of_whole(source, document)
         alone = _select_model(source, document, model, paths)
         return cls(emit(alone, DiagnosticSink()).encode(), alone.format, alone.version)
+
+    @classmethod
+    def of_whole(cls, source: Path | bytes, document: Document) -> Self:
+        """Make a round trip of all that a file or text holds, as a world in MJCF."""
+        text = source.read_bytes() if isinstance(source, Path) else source
+        return cls(text, document.format, document.version)
 
     def back(self, there: str) -> str:
         """Convert a text in the other format back, into the version that the robot had.

@@ -63,7 +63,7 @@ def test_a_pass_that_keeps_it_gives_its_document() -> None:
     assert assert_pass_contract(FillLimits(), ROVER, idempotent=True) == assert_valid(ROVER)
 
 
-@pytest.mark.parametrize("via", [None, "sdf", "json"])
+@pytest.mark.parametrize("via", [None, "sdf", "mjcf", "json"])
 def test_a_robot_comes_back(via: str | None) -> None:
     assert_round_trip(ROVER, via=via)  # pyright: ignore[reportArgumentType] - they are literals
     assert_round_trip(ROVER.read_text(), via=via)  # pyright: ignore[reportArgumentType] - as above
