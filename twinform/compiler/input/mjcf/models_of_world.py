@@ -65,13 +65,17 @@ def without_moved_statics(frames: Iterable[Frame], model: Model, sink: Diagnosti
     `model` is the flattened one with the joints that the file has. In a static model each body is fixed to the world,
     or to another body of it.
     """
-    holds: dict[str | None, list[Joint]] = {}
-    for each in model.joints:  # one that closes a loop holds a link besides
-        holds.setdefault(each.child, []).append(each)
+    held: dict[str, list[str]] = {}
+    for joint in model.joints:
+        if joint.type == "fixed":
+            held.setdefault(joint.child or "", []).append(joint.parent or "")
+    inside: dict[str, list[str]] = {}
+    for link in model.links:
+        for scope in scopes_of(link.name):
+            inside.setdefault(scope, []).append(link.name)
     for frame in frames:
-        scope = frame.name + SCOPE
-        inside = [holds.get(each.name, ()) for each in model.links if each.name.startswith(scope)]
-        if is_static(frame) and not all(any(_is_fixed_in(joint, scope) for joint in each) for each in inside):
+        own = inside.get(frame.name, ())
+        if is_static(frame) and not all(_is_fixed_in(frame.name, held.get(each, ())) for each in own):
             report_stale(sink, f"model {frame.name!r} is not static any more: it can move", frame.source)
             nested = find_annotation(frame, NESTED) or Element.unchecked(name=NESTED)
             rest = tuple(each for each in nested.children if each.name != "static")
@@ -80,16 +84,15 @@ def without_moved_statics(frames: Iterable[Frame], model: Model, sink: Diagnosti
         yield frame
 
 
+def _is_fixed_in(model: str, parents: Iterable[str]) -> bool:
+    return any(parent == WORLD or parent.startswith(model + SCOPE) for parent in parents)
+
+
 def is_static(frame: Frame) -> bool:
     """Whether the model that a frame stands for is static."""
     nested = find_annotation(frame, NESTED)
     found = nested.find("static") if nested is not None else None
     return found is not None and found.text in {"true", "1"}
-
-
-def _is_fixed_in(joint: Joint, scope: str) -> bool:
-    parent = joint.parent or ""
-    return joint.type == "fixed" and (parent == WORLD or parent.startswith(scope))
 
 
 def with_joints_between(model: Model, *, in_models: bool) -> Model:
