@@ -62,6 +62,7 @@ from twinform.passes.legalise.to_sdf.joint_types import FLOATING
 from twinform.passes.legalise.to_sdf.restore_frames import RestoreFrames
 from twinform.passes.sdf_versions import change_version, lower_meaning
 from twinform.passes.sdf_versions.put_back import PutBack
+from twinform.passes.sdf_versions.rename_states import RenameStates
 from twinform.passes.sdf_versions.set_version import SetVersion
 from twinform.passes.shared.poses import POSE
 from twinform.schemas import DEFAULT_SDF_VERSION, XmlElement, in_order, parse_version, versions_of
@@ -337,7 +338,8 @@ class _Merged:
             return document
         # Syntax of newer versions goes back, and only what means something else is rewritten.
         back = PutBack.unchecked(version=_WITH_AUTOMATIC, source=newest)
-        mixed = (back, *lower_meaning(version), SetVersion.unchecked(version=version))
+        states = RenameStates.unchecked(version=version, back=True)  # all older versions call them otherwise
+        mixed = (back, states, *lower_meaning(version), SetVersion.unchecked(version=version))
         for step in mixed if self._is_mixed or version == newest else change_version(newest, version):
             document = step.run(document, self.sink)
         is_old = not self._is_mixed and version in _BEFORE_NAMED_FRAMES
