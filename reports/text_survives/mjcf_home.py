@@ -36,7 +36,7 @@ def measure(sample: Sample) -> Findings:
     parts = [
         subsection("Files that became MJCF and came back", counts),
         subsection("What no MJCF can be written for, by rule", listing(["rule", "files", "for example"], refused)),
-        subsection("What is right as it is", listing(["why", "file"], sorted(set(named)))),
+        subsection("What is not as it was, and why that is left", listing(["why", "file"], sorted(set(named)))),
         subsection("What does not come back", listing(COLUMNS, by_path((one.name, one.lost) for one in lost))),
     ]
     return Findings(parts, counts, [*(f"{one.name}, {one.way}: {one.lost[0].message}" for one in lost), *died])

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 from hypothesis import assume, given
+from hypothesis import strategies as st
 from lxml import etree
 
 from tests.profile import examples
@@ -44,7 +45,7 @@ def test_a_model_comes_back_from_mjcf(model: Document) -> None:
 
 
 @_SETTINGS
-@given(strategies.worlds(max_models=3))
+@given(st.one_of(strategies.worlds(nested=True), strategies.worlds(anchored=True)))
 def test_a_world_comes_back_from_mjcf(world: Document) -> None:
     assert _mismatches(world) == []
 

@@ -122,7 +122,7 @@ class WhatIsSaid:
             return None
         if isinstance(node, Limit):
             said = said_of_limit(node, joint)
-            return said - _without_end(node) if self.file.is_back else said
+            return said - _without_end(node) if self.file.was_urdf else said
         if isinstance(node, Axis) and joint.type not in _DIRECTED:
             return None if joint.type == "fixed" else frozenset()
         return said_by_mjcf(node)

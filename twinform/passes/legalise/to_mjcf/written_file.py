@@ -29,6 +29,7 @@ class WrittenFile:
 
     Attributes:
         part: the link, joint or frame that is looked at; shapes are those of this link.
+        was_urdf: whether the model was a URDF once.
         is_back: whether the source is a URDF.
     """
 
@@ -36,8 +37,8 @@ class WrittenFile:
         self.context = context
         self.sections = context.sections
         self.part: Node = context.holder
-        is_of_urdf = context.source_version is None
-        self.is_back = is_of_urdf and isinstance(context.holder, Model) and came_from(context.holder, Format.URDF)
+        self.was_urdf = isinstance(context.holder, Model) and came_from(context.holder, Format.URDF)
+        self.is_back = self.was_urdf and context.source_version is None
 
     @cached_property
     def flat(self) -> Model:
@@ -94,8 +95,9 @@ class WrittenFile:
                 names = (context.written_bodies.get(node.name, node.name),)
             case Joint():
                 names = context.written_joints.get(node.name) or (node.name,)
-                if node.type == "screw":  # of whose two joints only the one that turns counts for others
-                    names = (context.written_slides.get(node.name, node.name), *names)
+                # of the two joints of a screw only the one that turns counts for others
+                if node.type == "screw" and node.name in context.written_slides:
+                    names = (context.written_slides[node.name], *names)
             case Frame():
                 names = (context.written_sites.get(node.name, node.name),)
             case _:
