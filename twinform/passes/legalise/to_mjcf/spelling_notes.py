@@ -136,8 +136,9 @@ class SpellingNotes:
         if joint.name in self.file.closing:
             is_held = joint.name in self.context.written_joints
             return [annotation(LOOP, attributes={"held": None if is_held else "false"})]
-        is_written = bool(self.context.written_joints.get(joint.name))  # those of a static model are not
-        if joint.type in {"fixed", "gearbox"} or not is_written or not self.file.graph.knows(joint.child or ""):
+        if joint.type in {"fixed", "gearbox"} or joint.child is None or not self.file.graph.knows(joint.child):
+            return ()
+        if not self.context.written_joints.get(joint.name):  # as those of a static model
             return ()
         placed = self.file.graph.pose(joint.name, joint.child, kind="joint", base="link")
         turn = None if placed.is_unturned else _numbers(placed.rpy())
