@@ -9,7 +9,7 @@ from twinform.compiler.input.mjcf.pieces import Piece, pose_of
 from twinform.compiler.input.mjcf.remainders import RemainderKeeper, holder
 from twinform.dataclass import dataclass
 from twinform.diagnostics import rules
-from twinform.ir import Inertia, Inertial, Opaque
+from twinform.ir import Inertia, Inertial, Link, Opaque
 from twinform.ir.solids import (
     ELEMENTS,
     Solid,
@@ -21,8 +21,8 @@ from twinform.ir.solids import (
     with_mass,
 )
 from twinform.ir.transform import Matrix3, Transform, rounded
-from twinform.passes.carriers.annotations import with_annotation
-from twinform.passes.carriers.token_mass import TOKEN, UNSAID, moments
+from twinform.passes.carriers.annotations import with_annotation, without_annotation
+from twinform.passes.carriers.token_mass import TOKEN, UNSAID, moments, restore_inertial, says_zero
 
 DENSITY = 1000.0
 """In kg/m^3, of a geom that says nothing about its mass."""
@@ -204,3 +204,11 @@ def _inertial(found: WrittenInertia, solid: Solid, rest: tuple[Opaque, ...]) -> 
     inertia = Inertia.unchecked(**dict(zip(ELEMENTS, solid.inertia, strict=True)))
     pose = pose_of(at, source=found.piece.source)
     return Inertial.unchecked(pose=pose, mass=solid.mass, inertia=inertia, opaque=rest, source=found.piece.source)
+
+
+def with_zeros(link: Link, *, is_told: bool) -> Link:
+    """Return the link with the mass of zero that the file has, unless a carrier tells what the source had."""
+    inertial = link.inertial
+    if inertial is None or not says_zero(inertial):
+        return link
+    return link.copy(inertial=without_annotation(inertial, UNSAID) if is_told else restore_inertial(inertial))

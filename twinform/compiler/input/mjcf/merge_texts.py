@@ -10,11 +10,14 @@ from twinform.compiler.input.mjcf.attached_frames import attach_frames
 from twinform.compiler.input.mjcf.carried_texts import CarriedText, are_of_sdf, nodes_of, report_stale, report_unmerged
 from twinform.compiler.input.mjcf.first_links import with_first_links
 from twinform.compiler.input.mjcf.joined_joints import join_joints, sensors_left
+from twinform.compiler.input.mjcf.lower_inertials import with_zeros
 from twinform.compiler.input.mjcf.merge_parts import merge_parts
 from twinform.compiler.input.mjcf.models_of_world import (
+    is_held,
     with_joints_between,
     with_models,
     with_nested,
+    without_holds,
     without_moved_statics,
 )
 from twinform.compiler.input.mjcf.names import safe_name
@@ -35,7 +38,6 @@ from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document, Format, Frame, Joint, Link, Model, Node, Opaque, World, replace_fields, rewrite
 from twinform.ir.element import Namespaces
 from twinform.ir.frames import WORLD, FrameError, FrameGraph
-from twinform.ir.scopes import scoped_models
 from twinform.passes.carriers.annotations import (
     FROM,
     came_from,
@@ -52,7 +54,7 @@ from twinform.passes.carriers.mjcf_texts import DOCUMENT, PREFIXES, SEVERAL
 from twinform.passes.carriers.old_names import source_name
 from twinform.passes.carriers.partial_nodes import WRITTEN, Merging, is_rest, written_names
 from twinform.passes.carriers.repeated_parts import AGAIN, unwrap_repeated
-from twinform.passes.carriers.token_mass import UNSAID, restore_inertial, says_zero
+from twinform.passes.carriers.token_mass import UNSAID
 from twinform.passes.legalise.changed_names import RestoreNames
 from twinform.passes.legalise.gearboxes import without_their_mimics
 from twinform.passes.legalise.nested_models import NameScopes, RestoreNested
@@ -174,12 +176,12 @@ class _Merged:
         between = tuple(
             whole[each.name].copy(pose=each.pose, source=each.source)
             if each.name in whole and is_synthesized(each)
-            else _with_zeros(each, is_told=each.name in told)
+            else with_zeros(each, is_told=each.name in told)
             for each in model.links
         )
         known = {each.name for each in between}
         self.links = [each for each in self.links if each.name not in whole or each.name not in known]
-        is_held = _is_held(model)  # as the file has it; a joint that a carrier has of a static model cannot move
+        holds = is_held(model)  # as the file has it; a joint that a carrier has of a static model cannot move
         joints = without_stand_ins(model.copy(joints=joints), self.joints).joints
         links = self.merging.merge_all(between, tuple(without_annotation(each, WRITTEN) for each in self.links))
         ends = {WORLD, *(each.name for each in links), *(each.name for each in (*model.frames, *self.frames))}
@@ -190,7 +192,7 @@ class _Merged:
         model = model.copy(links=links, joints=joints, frames=frames)
         if partial is None:
             return self._let_go(model, made)
-        is_static = bool(partial.static) and is_held
+        is_static = bool(partial.static) and holds
         if partial.static and not is_static:
             self._stale(f"model {model.name!r} is not static any more: something in it moves", partial)
             partial = partial.copy(static=None)
@@ -248,7 +250,7 @@ class _Merged:
         steps = (NameScopes.unchecked(), frames, RestoreNested.unchecked())
         for step in steps:
             model = step.run_model(model, self.sink)
-        model = without_annotation(_without_holds(model), FROM)
+        model = without_annotation(without_holds(model), FROM)
         return model if origin is None else model.copy(opaque=(Opaque.unchecked(element=origin), *model.opaque))
 
     def _as_document(self, model: Model) -> Document:
@@ -382,33 +384,3 @@ def _roots(model: Model) -> set[str]:
     on_world = {each.child for each in model.joints} - held
     free = {each.name for each in model.links if find_annotation(each, FLOATING) is not None} - on_world
     return {each.name for each in model.links} - held - free
-
-
-def _without_holds(model: Model) -> Model:
-    """The model without joints that only hold the static models in it."""
-    static = tuple(scope for scope, each in scoped_models(model) if scope and each.static)
-    kept = tuple(
-        each
-        for each in model.joints
-        if not (
-            is_synthesized(each)
-            and each.type == "fixed"
-            and each.parent == WORLD
-            and (each.child or "").startswith(static or "\0")
-        )
-    )
-    return replace_fields(model, joints=kept)
-
-
-def _with_zeros(link: Link, *, is_told: bool) -> Link:
-    """The link with the mass of zero that the file has, unless a carrier tells what the source had in its place."""
-    inertial = link.inertial
-    if inertial is None or not says_zero(inertial):
-        return link
-    return link.copy(inertial=without_annotation(inertial, UNSAID) if is_told else restore_inertial(inertial))
-
-
-def _is_held(model: Model) -> bool:
-    """Whether nothing in a model moves."""
-    held = {each.child for each in model.joints if each.type == "fixed"}
-    return all(each.name in held for each in model.links)

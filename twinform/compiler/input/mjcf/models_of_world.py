@@ -8,10 +8,16 @@ from collections.abc import Iterable, Iterator
 
 from twinform.compiler.input.mjcf.carried_texts import report_stale
 from twinform.diagnostics import DiagnosticSink
-from twinform.ir import Element, Format, Frame, Joint, Model, Opaque
+from twinform.ir import Element, Format, Frame, Joint, Model, Opaque, replace_fields
 from twinform.ir.frames import WORLD
-from twinform.ir.scopes import SCOPE, scopes_of
-from twinform.passes.carriers.annotations import MADE_NAME, annotation, find_annotation, without_annotation
+from twinform.ir.scopes import SCOPE, scoped_models, scopes_of
+from twinform.passes.carriers.annotations import (
+    MADE_NAME,
+    annotation,
+    find_annotation,
+    is_synthesized,
+    without_annotation,
+)
 from twinform.passes.carriers.old_names import with_old_name
 from twinform.passes.legalise.changed_names import Names, renamed
 from twinform.passes.shared.nodes import unique_name
@@ -142,3 +148,25 @@ def _frame_of(name: str, link: str, *, is_made: bool) -> Frame:
     nested = annotation(NESTED).element or Element.unchecked(name=NESTED)
     nested = nested.copy(children=(made,)) if is_made and made is not None else nested
     return Frame.unchecked(name=name, attached_to=link, opaque=(Opaque.unchecked(element=nested),))
+
+
+def without_holds(model: Model) -> Model:
+    """The model without joints that only hold the static models in it."""
+    static = tuple(scope for scope, each in scoped_models(model) if scope and each.static)
+    kept = tuple(
+        each
+        for each in model.joints
+        if not (
+            is_synthesized(each)
+            and each.type == "fixed"
+            and each.parent == WORLD
+            and (each.child or "").startswith(static or "\0")
+        )
+    )
+    return replace_fields(model, joints=kept)
+
+
+def is_held(model: Model) -> bool:
+    """Whether nothing in a model moves."""
+    held = {each.child for each in model.joints if each.type == "fixed"}
+    return all(each.name in held for each in model.links)

@@ -1,26 +1,23 @@
 """Values that MJCF writes otherwise than the source: they come back as they were while they agree with the file.
 
-A look, the URI of a mesh, the axes of an inertia, the type of a joint, and the ends of a range of one position.
+A look, the URI of a mesh, the axes of an inertia, and, in a file beside this one, the types and ranges of joints.
 What an edit has changed does not agree any more, and counts.
 """
 
-import math
 from collections.abc import Callable, Collection, Iterator, Mapping
 from typing import Any, TypeVar, cast
 
 from twinform.compiler.input.mjcf.carried_texts import report_stale
+from twinform.compiler.input.mjcf.joint_spellings import CLOSE, with_ends, with_motion, with_reference
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import (
-    Axis,
     Collision,
     Element,
-    Format,
     Geometry,
     Heightmap,
     Inertia,
     Inertial,
     Joint,
-    JointType,
     Limit,
     Link,
     Mesh,
@@ -33,12 +30,11 @@ from twinform.ir import (
     Surface,
     Visual,
 )
-from twinform.ir.defaults import direction, multiplier
 from twinform.ir.node import Vector3
 from twinform.ir.solids import tensor, turned
-from twinform.ir.transform import Transform, rounded
+from twinform.ir.transform import Transform
 from twinform.passes.carriers.absorb import CarrierError, absorb
-from twinform.passes.carriers.annotations import CONTINUOUS, SAME_GEOM, find_annotation, without_annotation
+from twinform.passes.carriers.annotations import SAME_GEOM, find_annotation, without_annotation
 from twinform.passes.carriers.carriers import to_element
 from twinform.passes.carriers.mjcf_texts import (
     AXES,
@@ -47,14 +43,12 @@ from twinform.passes.carriers.mjcf_texts import (
     PARTS,
     SHAPE_OF,
     TERRAIN,
-    TURN,
     Tagged,
     digest_of,
     look_parts,
 )
 from twinform.passes.carriers.old_names import NAME, source_name
 from twinform.passes.carriers.partial_nodes import REST, is_rest, written_name
-from twinform.passes.carriers.said_by_mjcf import LIMITED
 from twinform.passes.carriers.sdf_versions import is_version_carrier
 from twinform.passes.carriers.token_mass import UNSAID
 from twinform.passes.legalise.to_mjcf.contact_plan import MASKS
@@ -69,16 +63,8 @@ from twinform.schemas import XmlElement, format_value
 AnyNode = TypeVar("AnyNode", bound=Node)
 AnyShape = TypeVar("AnyShape", Visual, Collision)
 
-_CLOSE = 2e-9
-"""How far a number may be from the one that was written: what a range of a single position is wide."""
-_ALIKE: tuple[frozenset[JointType], ...] = (
-    frozenset({"revolute", "continuous"}),
-    frozenset({"universal", "revolute2"}),
-    frozenset({"ball", "spherical"}),
-)
-"""Types of joints that are the same in MJCF."""
 _DIGITS = 12
-_UNDIRECTED = frozenset({"ball", "spherical"})
+"""To which a color is rounded once the opacity of its visual is out of it."""
 
 
 class Spellings:
@@ -98,9 +84,9 @@ class Spellings:
             Visual: self._of_visual,
             Collision: lambda node, partial: _without_name_of_file(*self._with_rolling(*_with_shape(node, partial))),
             Surface: lambda node, partial: _with_torsion(*_with_second_coefficient(node, partial)),
-            Joint: _with_motion,
-            Mimic: _with_reference,
-            Limit: lambda node, partial: (_with_ends(node, partial), partial),
+            Joint: with_motion,
+            Mimic: with_reference,
+            Limit: lambda node, partial: (with_ends(node, partial), partial),
             Sensor: _with_contacts,
             Inertial: self._with_inertia,
         }
@@ -173,7 +159,7 @@ def _with_transparency(node: Visual, partial: Visual) -> tuple[Visual, Visual]:
         return node, partial
     *color, opacity = material.diffuse
     share = 1.0 - child_number(through, default=0.0)
-    if not 0.0 < opacity <= share * (1.0 + _CLOSE):
+    if not 0.0 < opacity <= share * (1.0 + CLOSE):
         return node, without_elements(partial, {"transparency"})
     made = (*color, round(opacity / share, _DIGITS))
     return node.copy(material=material.copy(ambient=material.ambient and made, diffuse=made)), partial
@@ -183,12 +169,6 @@ def _without_name_of_file(node: Node, partial: Node) -> tuple[Node, Node]:
     """The node without the name of its geom, where it gets another one than that is read as."""
     is_renamed = written_name(partial) != getattr(partial, "name", None)
     return (without_annotation(node, NAME) if is_renamed else node), partial
-
-
-def _with_motion(node: Joint, partial: Joint) -> tuple[Joint, Joint]:
-    """The type, the frame and the range of the source, as far as the file has these in another way."""
-    kept = without_annotation(_without_position(node, partial), TURN, CONTINUOUS)
-    return _with_turn(_without_made_axis(_with_type(node, partial), partial), partial), kept
 
 
 def _with_own_names(node: Link, partial: Link) -> Link:
@@ -314,79 +294,6 @@ def _with_shape_in(node: AnyShape, shape: Plane | Heightmap, place: Transform) -
     return node.copy(geometry=geometry, pose=None if Transform.from_pose(pose).is_identity else pose)
 
 
-def _with_type(node: Joint, partial: Joint) -> Joint:
-    """The joint with the type of the source, if MJCF has one word for both."""
-    if node.type == partial.type or not any({node.type, partial.type} <= alike for alike in _ALIKE):
-        return node
-    limit = node.axis.limit if node.axis else None
-    is_limited = limit is not None and (limit.lower is not None or limit.upper is not None)
-    if partial.type == "continuous" and is_limited:
-        return node
-    return node.copy(type=partial.type)
-
-
-def _without_made_axis(node: Joint, partial: Joint) -> Joint:
-    """The joint without the direction that a ball was given with its damping, where the source has one."""
-    if node.type not in _UNDIRECTED or node.axis is None or partial.axis is None or partial.axis.xyz is None:
-        return node
-    return node.copy(axis=node.axis.copy(xyz=None))
-
-
-def _without_position(node: Joint, partial: Joint) -> Joint:
-    """What is kept of a joint, without the only position that it could be at where the file has no range any more."""
-    if partial.type not in LIMITED:
-        return partial
-    return partial.copy(axis=_let_go(node.axis, partial.axis), axis2=_let_go(node.axis2, partial.axis2))
-
-
-def _let_go(axis: Axis | None, kept: Axis | None) -> Axis | None:
-    limit = kept.limit if kept is not None else None
-    if kept is None or limit is None or limit.lower is None or limit.lower != limit.upper:
-        return kept
-    own = axis.limit if axis is not None else None
-    is_limited = own is not None and (own.lower is not None or own.upper is not None)
-    return kept if is_limited else kept.copy(limit=limit.copy(lower=None, upper=None))
-
-
-def _with_turn(node: Joint, partial: Joint) -> Joint:
-    """The joint in the frame of the source, which is turned in its body."""
-    note = find_annotation(partial, TURN)
-    if note is None:
-        return node
-    try:
-        rpy, xyz = read_vector(note.get("rpy")), read_vector(note.get("xyz"))
-    except ValueError:
-        return node
-    back = Transform.from_pose(Pose.unchecked(rpy=rpy)).inverse()
-
-    def turned_axis(axis: Axis | None) -> Axis | None:
-        return axis and axis.copy(xyz=rounded(back.rotate(direction(axis, Format.SDF))))
-
-    pose = (node.pose or Pose.unchecked()).copy(rpy=rpy)
-    if note.get("xyz") and node.type == "prismatic":
-        pose = pose.copy(xyz=xyz)
-    return node.copy(pose=pose, axis=turned_axis(node.axis), axis2=turned_axis(node.axis2))
-
-
-def _with_reference(node: Mimic, partial: Mimic) -> tuple[Mimic, Mimic]:
-    """The mimic of the source, if the polynomial of the file is that of it, and does not say all of it."""
-    if partial.joint is None:
-        return node, partial
-    factor = multiplier(partial)
-    offset = (partial.offset or 0.0) - factor * (partial.reference or 0.0)
-    same = _is_close(multiplier(node), factor) and _is_close(node.offset or 0.0, offset)
-    if same and (node.joint, node.axis or "axis") == (partial.joint, partial.axis or "axis"):
-        return node.copy(joint=None, axis=None, multiplier=None, offset=None), partial
-    return node, Mimic.unchecked()
-
-
-def _with_ends(node: Limit, partial: Limit) -> Limit:
-    ends = [(node.lower, partial.lower), (node.upper, partial.upper)]
-    if any(own is None or kept is None or not _is_close(own, kept) for own, kept in ends):
-        return node
-    return node.copy(lower=None, upper=None)
-
-
 def _has_more(geom: XmlElement, names: Collection[str]) -> bool:
     """Whether the body of a geom has one that may touch and has none of these names."""
     body = geom.getparent()
@@ -412,10 +319,6 @@ def _with_axes(node: Inertial, partial: Inertial) -> Inertial:
 
 def _is_unturned(pose: Pose) -> bool:
     return Transform.from_pose(pose.copy(relative_to=None)).is_unturned
-
-
-def _is_close(one: float, other: float) -> bool:
-    return math.isclose(one, other, rel_tol=1e-9, abs_tol=_CLOSE)
 
 
 def _with_second_coefficient(node: Surface, partial: Surface) -> tuple[Surface, Surface]:
