@@ -13,6 +13,7 @@ from tests.snippets import ARM, INERTIAL
 from twinform.compiler import CompileError, convert
 from twinform.compiler.compare import diff
 from twinform.ir import Document
+from twinform.request_options import Language
 from twinform.testing import strategies
 from twinform.testing.properties import RoundTrip, assert_valid
 
@@ -245,3 +246,13 @@ def test_a_link_that_was_set_free_and_fixed_again_does_not_float() -> None:
     back = convert(free.replace("<freejoint/>", "").encode(), to="urdf")
     assert 'type="floating"' not in back.text
     assert [each.rule.name for each in back.diagnostics] == ["stale-carrier"]
+
+
+@pytest.mark.parametrize("other", ["sdf", "urdf"])
+def test_an_inertial_of_zeros_comes_back_to_mjcf(other: Language) -> None:
+    zeros = '<inertial pos="0.5 0 0.25" mass="0" diaginertia="0 0 0"/>'
+    model = f"""<mujoco model="m"><worldbody><body name="base">
+      <inertial pos="0 0 0" mass="1" diaginertia="1 1 1"/>
+      <body name="camera">{zeros}</body></body></worldbody></mujoco>"""
+    there = convert(model.encode(), to=other).text
+    assert zeros in convert(there.encode(), to="mjcf").text

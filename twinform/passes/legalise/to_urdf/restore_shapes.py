@@ -18,8 +18,8 @@ class RestoreShapes(ModelPass):
 
     Changes: 1. a visual or collision whose name an annotation lists has none, and one whose name was taken has it
     again; 2. an inertial of no mass goes, as URDF means that by saying nothing; 3. a token of mass and inertia goes
-    too.
-    Never touches: names that were edited since; models that did not come from URDF.
+    too; 4. in any model, a mass that MJCF says is zero is zero.
+    Never touches: names that were edited since; else, models that did not come from URDF.
     Diagnostics: none.
     """
 
@@ -28,11 +28,16 @@ class RestoreShapes(ModelPass):
     def run_model(self, model: Model, sink: DiagnosticSink) -> Model:
         """The model without what was synthesized."""
         if not came_from(model, Format.URDF):
-            return model
+            return replace_fields(model, links=tuple(map(_with_zeros, model.links)))
         found = find_annotation(model, UNNAMED)
         made = frozenset(line.strip() for line in (found.text or "").splitlines()) if found else frozenset[str]()
         links = tuple(_restore_link(link, made) for link in model.links)
         return without_annotation(model.copy(links=links), UNNAMED)
+
+
+def _with_zeros(link: Link) -> Link:
+    is_told = link.inertial is not None and says_zero(link.inertial)
+    return link.copy(inertial=restore_inertial(link.inertial)) if is_told and link.inertial else link
 
 
 def _restore_link(link: Link, made: frozenset[str]) -> Link:
