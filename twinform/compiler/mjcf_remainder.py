@@ -26,6 +26,7 @@ from twinform.ir import (
 )
 from twinform.ir.transform import Transform
 from twinform.passes.carriers.annotations import MADE_NAME, find_annotation
+from twinform.passes.carriers.carriers import ROOT
 from twinform.passes.carriers.old_names import NAME
 from twinform.passes.framework.pass_base import Pass
 from twinform.passes.legalise.to_mjcf.elements import make_element, placement
@@ -185,4 +186,9 @@ def _adopt(part: Part, old: Part) -> Part:
 
 
 def _kept(node: Node) -> Iterator[Opaque]:
-    return (each for each in node.opaque if each.element is not None and each.element.name == KEPT)
+    """Yield what a node keeps, but for the mark of what was read of MJCF, which another source was not."""
+    for part in node.opaque:
+        if part.element is not None and part.element.name == KEPT:
+            children = tuple(each for each in part.element.children if each.name != ROOT)
+            if children:
+                yield part.copy(element=part.element.copy(children=children))
