@@ -272,7 +272,8 @@ class Folded:
 
     `there` has the tag, name and type of each part of the result, and `named` its tag and name. `parts` are the names
     of parts that are gone from it, `followers` its joints with a mimic, and `ends` the joints that chains became.
-    `shapes` has the tag and name of each visual and collision with each element of its geometry.
+    `shapes` has the tag and name of each visual and collision with each element of its geometry. `in_mjcf` tells
+    whether the result is MJCF, which writes no limit that means none.
     """
 
     there: frozenset[tuple[str, str, str]] = frozenset()
@@ -281,6 +282,7 @@ class Folded:
     followers: frozenset[str] = frozenset()
     ends: frozenset[str] = frozenset()
     shapes: frozenset[tuple[str, str, str]] = frozenset()
+    in_mjcf: bool = False
 
     @classmethod
     def of(cls, source: XmlElement, result: XmlElement) -> Self:
@@ -302,7 +304,7 @@ class Folded:
             for each in found
             for shape in each.iterfind("geometry/*")
         )
-        return cls(there, named, frozenset(gone), followers, ends, shapes)
+        return cls(there, named, frozenset(gone), followers, ends, shapes, in_mjcf=result.tag == "mujoco")
 
     def expresses(self, element: XmlElement, attribute: str | None) -> bool:
         """Whether the result expresses a part of the source in another way, such as by one joint for several."""
@@ -311,6 +313,8 @@ class Folded:
         if _is_synthesized_number(element, attribute) or any(map(self.is_gone, (element, *element.iterancestors()))):
             return True
         holder = element.getparent()
+        if self.in_mjcf and element.tag in {"lower", "upper"} and holder is not None and holder.tag == "limit":
+            return _is_no_limit(element.text or "")
         if element.tag in {"mesh", "uri"} and self._is_folded_mesh(element):
             return True
         return element.tag == "mimic" and holder is not None and self._is_geared(holder)
@@ -376,8 +380,6 @@ def _is_synthesized_number(element: XmlElement, attribute: str | None) -> bool:
         return is_token or holder.find(_COMPUTED_MASS) is not None
     if element.tag == "mimic":
         return attribute == "offset" and holder.find(_MIMIC) is not None
-    if element.tag in {"lower", "upper"}:
-        return holder.tag == "limit" and _is_no_limit(element.text or "")
     return element.tag == "limit" and attribute is not None and _is_no_limit(element.get(attribute, ""))
 
 

@@ -202,6 +202,7 @@ def _may_have_tiny(model: Model, to: Format) -> bool:
             inside = getattr(node, name)
             if inside:
                 nodes += inside if inside.__class__ is tuple else (inside,)
+    # None of the least numbers is larger than that of colors.
     tiny = [each for each in numbers if -_FLOAT < each < _FLOAT and each]
     return bool(tiny)
 

@@ -5,9 +5,9 @@ In MJCF a body is in the one that it hangs from, so that a link which stood firs
 
 from collections.abc import Iterator
 
-from twinform.ir import Link, Model
+from twinform.ir import Format, Link, Model
 from twinform.ir.scopes import SCOPE, scope_in
-from twinform.passes.carriers.annotations import find_annotation, without_annotation
+from twinform.passes.carriers.annotations import came_from, find_annotation, without_annotation
 from twinform.passes.carriers.mjcf_texts import FIRST
 from twinform.passes.shared.poses import NESTED
 from twinform.schemas import in_order
@@ -35,6 +35,26 @@ def with_first_links(model: Model) -> Model:
         return model
     in_places = sorted(model.links, key=lambda link: places[link.name])
     return model.copy(links=tuple(moved.get(each.name, each) for each in in_places))
+
+
+def keep_first_link(model: Model, *, can_be_named: bool) -> Model:
+    """A model that names its first link as the canonical one, where another would be written before that.
+
+    The link of the world's own shapes would be. Old SDF cannot name one: there the others are written behind the first.
+    """
+    if came_from(model, Format.URDF) or model.canonical_link or not model.links:
+        return model
+    first, (written, _) = model.links[0], in_order([(each, None) for each in model.links])[0]
+    if written is first:
+        return model
+    if can_be_named or first.source is None:
+        return model.copy(canonical_link=first.name)
+    line = first.source.line
+    later = (
+        each.copy(source=each.source._replace(line=max(line, each.source.line))) if each.source else each
+        for each in model.links
+    )
+    return model.copy(links=tuple(later))
 
 
 def _first_links(model: Model) -> Iterator[tuple[str, str]]:

@@ -8,7 +8,7 @@ from typing import TypeVar
 
 from twinform.compiler.input.mjcf.attached_frames import attach_frames
 from twinform.compiler.input.mjcf.carried_texts import CarriedText, are_of_sdf, nodes_of, report_stale, report_unmerged
-from twinform.compiler.input.mjcf.first_links import with_first_links
+from twinform.compiler.input.mjcf.first_links import keep_first_link, with_first_links
 from twinform.compiler.input.mjcf.joined_joints import join_joints, sensors_left
 from twinform.compiler.input.mjcf.lower_inertials import with_zeros
 from twinform.compiler.input.mjcf.merge_parts import merge_parts
@@ -67,7 +67,7 @@ from twinform.passes.sdf_versions.put_back import PutBack
 from twinform.passes.sdf_versions.rename_states import RenameStates
 from twinform.passes.sdf_versions.set_version import SetVersion
 from twinform.passes.shared.poses import POSE
-from twinform.schemas import DEFAULT_SDF_VERSION, XmlElement, in_order, parse_version, versions_of
+from twinform.schemas import DEFAULT_SDF_VERSION, XmlElement, parse_version, versions_of
 
 _BEFORE_NAMED_FRAMES = frozenset(each for each in versions_of("sdf") if parse_version(each) < (1, 7))
 """The versions of SDF in which axes and poses name no frames."""
@@ -272,7 +272,7 @@ class _Merged:
 
     def _settled(self, model: Model) -> Model | World:
         """The model with its contacts, which were computed while a robot was held by the world."""
-        model = _with_first_link(model, can_be_named=self._source_version not in _BEFORE_NAMED_FRAMES)
+        model = keep_first_link(model, can_be_named=self._source_version not in _BEFORE_NAMED_FRAMES)
         graph = FrameGraph(model)  # a link that was made for a model without any is gone
         holds = tuple(each for each in self.holds if graph.knows(each.child or ""))
         held = settle_contacts(model.copy(joints=(*holds, *model.joints)))
@@ -356,26 +356,6 @@ class _Merged:
 
     def _stale(self, message: str, node: Node) -> None:
         report_stale(self.sink, message, node.source)
-
-
-def _with_first_link(model: Model, *, can_be_named: bool) -> Model:
-    """The model, which names its first link where that of the world's own shapes would be written before it.
-
-    In old SDF that cannot be said, and this one is written behind it.
-    """
-    if came_from(model, Format.URDF) or model.canonical_link or not model.links:
-        return model
-    first, (written, _) = model.links[0], in_order([(each, None) for each in model.links])[0]
-    if written is first:
-        return model
-    if can_be_named or first.source is None:
-        return model.copy(canonical_link=first.name)
-    line = first.source.line
-    later = (
-        each.copy(source=each.source._replace(line=max(line, each.source.line))) if each.source else each
-        for each in model.links
-    )
-    return model.copy(links=tuple(later))
 
 
 def _roots(model: Model) -> set[str]:
