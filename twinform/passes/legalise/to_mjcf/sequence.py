@@ -66,6 +66,7 @@ def _with_old_names(version: str | None, newest: str, requested: Requested) -> I
 def _robot_on_the_world(version: str, requested: Requested, *, mixed: bool) -> Iterator[Pass]:
     """Yield the passes from URDF to SDF, with one more that fixes the robot to the world of SDF."""
     from twinform.passes.legalise.changed_names import UniqueNames  # noqa: PLC0415 - see above
+    from twinform.passes.legalise.round_tiny_numbers import RoundTinyNumbers  # noqa: PLC0415 - see above
     from twinform.passes.legalise.to_sdf.mesh_uris import MeshUris  # noqa: PLC0415 - few conversions go this way
     from twinform.passes.legalise.to_sdf.retarget import RetargetSdf  # noqa: PLC0415 - see above
     from twinform.passes.legalise.to_sdf.sequence import to_sdf  # noqa: PLC0415 - many passes
@@ -82,5 +83,7 @@ def _robot_on_the_world(version: str, requested: Requested, *, mixed: bool) -> I
                 yield HoldRoot.unchecked()  # from here on a joint may have the world as its parent
             case RetargetSdf():
                 yield each.model_copy(update={"keeps_provenance": True})
+            case RoundTinyNumbers():
+                continue  # MuJoCo reads what libsdformat refuses
             case _:
                 yield each
