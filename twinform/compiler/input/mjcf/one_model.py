@@ -1,8 +1,9 @@
 """The trees of a file of MJCF as one model: what was one model before it was written, and has several roots."""
 
+from twinform.compiler.input.mjcf.remainders import holder, with_rest
 from twinform.compiler.input.mjcf.restore_contacts import with_contacts
 from twinform.compiler.input.mjcf.usual_remainders import without_usual
-from twinform.ir import Collision, Document, Frame, Joint, Link, Model, Node, Opaque, Pose, rewrite
+from twinform.ir import Collision, Document, Frame, Joint, Link, Model, Node, Opaque, Pose, Visual, rewrite
 from twinform.ir.frames import WORLD
 from twinform.ir.transform import Transform
 from twinform.passes.carriers.annotations import (
@@ -13,6 +14,8 @@ from twinform.passes.carriers.annotations import (
     without_annotation,
 )
 from twinform.passes.carriers.old_names import NAME
+from twinform.passes.legalise.to_mjcf.elements import make_element
+from twinform.passes.legalise.to_mjcf.looks import look
 from twinform.passes.shared.nodes import reserve_name
 
 
@@ -63,10 +66,24 @@ def one_model(document: Document, name: str) -> Model:
 
 
 def _with_shapes_apart(link: Link) -> Link:
-    """A link whose collisions are only seen where a visual says so: what is written has a geom for each."""
-    if all(find_annotation(each, SAME_GEOM) is None for each in link.visuals):
+    """A link whose collisions are only seen where a visual says so: what is written has a geom for each.
+
+    The color of a geom that is seen and touches stays with its collision.
+    """
+    twins = {each.name: each for each in link.visuals if find_annotation(each, SAME_GEOM) is not None}
+    if not twins:
         return link
-    return link.copy(visuals=tuple(each for each in link.visuals if find_annotation(each, SAME_GEOM) is None))
+    return link.copy(
+        visuals=tuple(each for each in link.visuals if each.name not in twins),
+        collisions=tuple(_colored(each, twins.get(each.name)) for each in link.collisions),
+    )
+
+
+def _colored(collision: Collision, twin: Visual | None) -> Collision:
+    rgba = look(twin).rgba if twin is not None else None
+    if rgba is None:
+        return collision
+    return with_rest(collision, (holder(make_element("geom", [("rgba", rgba)])),))
 
 
 def _is_root(link: Link) -> bool:

@@ -158,7 +158,9 @@ def _group(context: MjcfContext, part: Visual | Collision, group: int) -> list[t
     if context.is_of_mjcf:
         is_shown = is_touched and _kept_group(part) in {"1", "2"} and not _is_transparent(context, part)
         return [("group", str(group))] if is_shown else []
-    return [] if _kept_group(part) or (is_touched and not context.has_visuals) else [("group", str(group))]
+    # A collision that keeps the color of its geom is no visual: in a group that is shown, it would be read as one too.
+    is_shown = is_touched and not context.has_visuals and not any(kept_of_geom(part, each) for each in _COLORS)
+    return [] if _kept_group(part) or is_shown else [("group", str(group))]
 
 
 def _is_hidden_beside(context: MjcfContext, collision: Collision) -> bool:
