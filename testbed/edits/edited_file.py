@@ -53,12 +53,13 @@ class EditedFile:
         return root
 
     @cached_property
-    def carried_shapes(self) -> frozenset[str]:
-        """The names of visuals and collisions that only texts of MJCF have, since it has none like them."""
+    def carried_shapes(self) -> frozenset[tuple[str, str]]:
+        """The visuals and collisions that only texts of MJCF have, since it has none like them: by link and name."""
         texts = (etree.fromstring(each.get("data") or "") for each in self.root.iter("text") if is_text_of_ours(each))
-        found = (each for text in texts for each in text.iter("visual", "collision"))
-        names = {each.get("name") or "" for each in found if each.find(f"{OURS}rest") is None}
-        return frozenset(names - {each.get("name") for each in self.root.iter("geom")})
+        links = (link for text in texts for link in text.iter("link"))
+        found = ((link, each) for link in links for each in link.iterchildren("visual", "collision"))
+        carried = {(_name(link), _name(each)) for link, each in found if each.find(f"{OURS}rest") is None}
+        return frozenset(carried - {geom_name(each) for each in self.root.iter("geom")})
 
     @cached_property
     def holders(self) -> dict[str, XmlElement]:
@@ -102,6 +103,12 @@ def without_scenery(file: EditedFile) -> EditedFile:
     return EditedFile(etree.tostring(root))
 
 
+def geom_name(geom: XmlElement) -> tuple[str, str]:
+    """What a geom of MJCF is called, and before it the body that it is in."""
+    around = geom.getparent()
+    return ("" if around is None else _name(around), _name(geom))
+
+
 def scoped_name(holder: XmlElement | None) -> str:
     """What a link or joint of URDF is called in SDF."""
     if holder is None:
@@ -115,6 +122,10 @@ def end(joint: XmlElement, tag: str) -> str:
     """The link at an end of a joint; empty where none is written."""
     found = joint.find(tag)
     return (found.get("link") or (found.text or "").strip()) if found is not None else ""
+
+
+def _name(element: XmlElement) -> str:
+    return element.get("name") or ""
 
 
 def _top(name: str, held: Mapping[str, str]) -> str:

@@ -13,7 +13,7 @@ from typing import Any
 
 from lxml import etree
 
-from testbed.edits.edited_file import OURS, EditedFile, end
+from testbed.edits.edited_file import OURS, EditedFile, end, geom_name
 
 _DIGITS = 6
 _SPRINGS = ("stiffness of joint ", "spring of joint ")
@@ -87,7 +87,7 @@ def _without_carried(file: EditedFile, back: str) -> str:
     root = etree.fromstring(back.encode())
     for geom in [*root.iter("geom")]:
         around = geom.getparent()
-        if around is not None and geom.get("name") in file.carried_shapes:
+        if around is not None and geom_name(geom) in file.carried_shapes:
             around.remove(geom)
     return etree.tostring(root, encoding="unicode")
 
