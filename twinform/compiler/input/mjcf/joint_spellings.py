@@ -20,6 +20,8 @@ _ALIKE: tuple[frozenset[JointType], ...] = (
 """Types of joints that are the same in MJCF."""
 _UNDIRECTED = frozenset({"ball", "spherical"})
 """The types of joints that have an axis for its damping alone."""
+_ENDLESS = frozenset({"continuous", *_UNDIRECTED})
+"""The types of joints whose range means nothing."""
 
 
 def with_motion(node: Joint, partial: Joint) -> tuple[Joint, Joint]:
@@ -30,7 +32,7 @@ def with_motion(node: Joint, partial: Joint) -> tuple[Joint, Joint]:
 
 def _with_type(node: Joint, partial: Joint) -> Joint:
     """The joint with the type of the source, if MJCF has one word for both."""
-    if node.type == partial.type or not any({node.type, partial.type} <= alike for alike in _ALIKE):
+    if not _are_alike(node.type, partial.type):
         return node
     limit = node.axis.limit if node.axis else None
     is_limited = limit is not None and (limit.lower is not None or limit.upper is not None)
@@ -47,10 +49,24 @@ def _without_made_axis(node: Joint, partial: Joint) -> Joint:
 
 
 def _without_position(node: Joint, partial: Joint) -> Joint:
-    """What is kept of a joint, without the only position that it could be at where the file has no range any more."""
+    """What is kept of a joint, without a range that would come to life.
+
+    That is one which meant nothing for a joint of its type, where the file has another type, and the only position that
+    the joint could be at, where the file has no range any more.
+    """
+    if partial.type in _ENDLESS and not _are_alike(node.type, partial.type):
+        return partial.copy(axis=partial.axis and _without_ends(partial.axis))
     if partial.type not in LIMITED:
         return partial
     return partial.copy(axis=_let_go(node.axis, partial.axis), axis2=_let_go(node.axis2, partial.axis2))
+
+
+def _are_alike(one: JointType, other: JointType) -> bool:
+    return one == other or any({one, other} <= alike for alike in _ALIKE)
+
+
+def _without_ends(axis: Axis) -> Axis:
+    return axis if axis.limit is None else axis.copy(limit=axis.limit.copy(lower=None, upper=None))
 
 
 def _let_go(axis: Axis | None, kept: Axis | None) -> Axis | None:
@@ -59,7 +75,7 @@ def _let_go(axis: Axis | None, kept: Axis | None) -> Axis | None:
         return kept
     own = axis.limit if axis is not None else None
     is_limited = own is not None and (own.lower is not None or own.upper is not None)
-    return kept if is_limited else kept.copy(limit=limit.copy(lower=None, upper=None))
+    return kept if is_limited else _without_ends(kept)
 
 
 def _with_turn(node: Joint, partial: Joint) -> Joint:
