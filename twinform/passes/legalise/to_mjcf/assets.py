@@ -63,12 +63,19 @@ def _new_mesh(context: MjcfContext, mesh: Mesh, uri: str, scale: Vector3 | None,
         context.sink.report(rules.UNREADABLE_MESH, f"mesh {uri!r} {why}", mesh.location, found=uri, help=_CONVERT)
         return None
     file = file_path(context, uri, mesh.location)
-    name = context.name("mesh", wanted or PurePosixPath(file).stem or "mesh", mesh.location)
+    name = _asset_name(context, "mesh", wanted, PurePosixPath(file).stem or "mesh", mesh)
     # MuJoCo refuses a mesh without a volume unless its inertia is that of its surface.
     shell = "shell" if extent is Extent.PLANE else None
     attributes: list[tuple[str, Value]] = [("name", name), ("file", file), ("scale", scale), ("inertia", shell)]
     context.add("asset", make_element("mesh", attributes, (), mesh.source))
     return name
+
+
+def _asset_name(context: MjcfContext, kind: str, wanted: str, usual: str, shape: Mesh | Heightmap) -> str | None:
+    """The name that an asset had in MJCF, or else the usual one, if none that is kept has it."""
+    if wanted:
+        return context.name(kind, wanted, shape.location)
+    return context.name(kind, usual, shape.location, context.kept_names(kind))
 
 
 def _why_unread(context: MjcfContext, mesh: Mesh, uri: str) -> str | None:
@@ -110,7 +117,7 @@ def height_field(context: MjcfContext, shape: Heightmap, wanted: str = "") -> st
     key = ("hfield", uri, size, wanted)
     if key not in context.files:
         file = file_path(context, uri, shape.location)
-        name = context.name("hfield", wanted or PurePosixPath(file).stem, shape.location)
+        name = _asset_name(context, "hfield", wanted, PurePosixPath(file).stem, shape)
         # Half of the extents, and the height above the origin.
         above = (size[0] / 2, size[1] / 2, size[2])
         extent = (*above, _depth(context, name, above))

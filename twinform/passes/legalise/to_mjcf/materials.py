@@ -1,5 +1,6 @@
 """Colors, materials and textures of visuals."""
 
+from collections.abc import Collection
 from pathlib import PurePosixPath
 
 from twinform.diagnostics import Location, rules
@@ -159,7 +160,15 @@ def _texture(context: MjcfContext, uri: str, where: Location) -> str | None:
     key = ("texture", uri)
     if key not in context.files:
         file = file_path(context, uri, where)
-        name = context.name("texture", PurePosixPath(file).stem or "texture", where)
-        context.add("asset", make_element("texture", [("name", name), ("type", "2d"), ("file", file)]))
+        name: str | None = PurePosixPath(file).stem or "texture"
+        if not _is_kept_texture(context, name, {uri, file}):
+            name = context.name("texture", name, where, context.kept_names("texture"))
+            context.add("asset", make_element("texture", [("name", name), ("type", "2d"), ("file", file)]))
         context.files[key] = name
     return context.files[key]
+
+
+def _is_kept_texture(context: MjcfContext, name: str, files: Collection[str]) -> bool:
+    """Whether a texture that is kept has this name, and is the same image."""
+    kept = context.kept_asset("texture", name)
+    return kept is not None and kept.get("type") == "2d" and kept.get("file") in files

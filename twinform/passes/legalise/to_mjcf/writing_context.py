@@ -5,7 +5,7 @@ into another section of the file, such as an equality or a sensor, they append t
 """
 
 from collections import defaultdict
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import field
 from functools import cached_property
 from typing import NamedTuple
@@ -32,6 +32,8 @@ from twinform.passes.shared.replaced_shapes import ShapeReplacer
 
 _RESERVED = {"body": frozenset({"world"})}
 """Names that MuJoCo gives itself, by kind."""
+_CONTENTS = frozenset({"file", "vertex", "elevation", "builtin", "plugin"})
+"""The attributes of assets of which one says what it is."""
 
 
 class Body(NamedTuple):
@@ -205,6 +207,16 @@ class MjcfContext:
         """What is kept of an asset that was read of MJCF."""
         return self._kept_assets.get((kind, name))
 
+    def kept_names(self, kind: str) -> frozenset[str]:
+        """The names of assets that are kept, and are none of those which are written for shapes.
+
+        What is kept of a file that was written here may be the rest of an asset, which is called after its file.
+        """
+        assets = ((name, each) for (of, name), each in self._kept_assets.items() if of == kind)
+        return frozenset(
+            name for name, each in assets if self.is_of_mjcf or not _CONTENTS.isdisjoint(dict(each.attributes))
+        )
+
     @cached_property
     def colors(self) -> Mapping[str, str]:
         """The colors of the materials that were read of MJCF and are kept, by their names."""
@@ -324,10 +336,13 @@ class MjcfContext:
             self.unnamed.add((kind, written))
             self.wishes[kind, written] = wish, getattr(part, "name", written)
 
-    def name(self, kind: str, wanted: str | None, where: Location | Sourced) -> str | None:
+    def name(
+        self, kind: str, wanted: str | None, where: Location | Sourced, beside: Collection[str] = ()
+    ) -> str | None:
         """A name that no other part of this kind has: the one that is wanted, or with a number behind it.
 
-        Names of MJCF are unique per kind in the whole file. A change of name is in the ledger.
+        Names of MJCF are unique per kind in the whole file. A change of name is in the ledger. Parts that will stand
+        `beside` it have these names.
         """
         if not wanted:
             return None
@@ -335,7 +350,7 @@ class MjcfContext:
         if used is None:
             used = self.names[kind] = set(_RESERVED.get(kind, ()))
         made = wanted
-        while made in used:
+        while made in used or made in beside:
             # Where all links have a "visual", to count from one each time would take quadratic time.
             number = self.numbers[kind, wanted] = self.numbers.get((kind, wanted), 0) + 1
             made = f"{wanted}_{number}"
