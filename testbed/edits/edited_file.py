@@ -1,8 +1,8 @@
 """An edited file as readers see it that do not know our carriers, and what its annotations mean."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from functools import cached_property
-from typing import Literal
+from typing import Literal, NamedTuple
 
 from lxml import etree
 
@@ -14,6 +14,14 @@ from twinform.schemas import XmlElement
 OURS = f"{{{NAMESPACE}}}"
 Language = Literal["urdf", "sdf", "mjcf"]
 _LANGUAGES: Mapping[object, Language] = {"robot": "urdf", "sdf": "sdf", "mujoco": "mjcf"}
+
+
+class Geom(NamedTuple):
+    """What tells a geom of MJCF from others: its body, its name, which may be made, and its shape."""
+
+    body: str
+    name: str
+    shape: str
 
 
 class EditedFile:
@@ -53,13 +61,18 @@ class EditedFile:
         return root
 
     @cached_property
-    def carried_shapes(self) -> frozenset[tuple[str, str]]:
-        """The visuals and collisions that only texts of MJCF have, since it has none like them: by link and name."""
+    def carried_shapes(self) -> frozenset[Geom]:
+        """The visuals and collisions that only texts of MJCF have, since it has none like them."""
         texts = (etree.fromstring(each.get("data") or "") for each in self.root.iter("text") if is_text_of_ours(each))
         links = (link for text in texts for link in text.iter("link"))
         found = ((link, each) for link in links for each in link.iterchildren("visual", "collision"))
-        carried = {(_name(link), _name(each)) for link, each in found if each.find(f"{OURS}rest") is None}
-        return frozenset(carried - {geom_name(each) for each in self.root.iter("geom")})
+        carried = {
+            Geom(_name(link), _name(each), shape)
+            for link, each in found
+            if each.find(f"{OURS}rest") is None
+            for shape in _shapes_in(each)
+        }
+        return frozenset(carried - set(map(geom_in, self.root.iter("geom"))))
 
     @cached_property
     def holders(self) -> dict[str, XmlElement]:
@@ -103,10 +116,10 @@ def without_scenery(file: EditedFile) -> EditedFile:
     return EditedFile(etree.tostring(root))
 
 
-def geom_name(geom: XmlElement) -> tuple[str, str]:
-    """What a geom of MJCF is called, and before it the body that it is in."""
+def geom_in(geom: XmlElement) -> Geom:
+    """A geom of MJCF."""
     around = geom.getparent()
-    return ("" if around is None else _name(around), _name(geom))
+    return Geom("" if around is None else _name(around), _name(geom), geom.get("type", "sphere"))
 
 
 def scoped_name(holder: XmlElement | None) -> str:
@@ -122,6 +135,12 @@ def end(joint: XmlElement, tag: str) -> str:
     """The link at an end of a joint; empty where none is written."""
     found = joint.find(tag)
     return (found.get("link") or (found.text or "").strip()) if found is not None else ""
+
+
+def _shapes_in(part: XmlElement) -> Iterator[str]:
+    """Yield what the shape of a visual or collision is called in MJCF."""
+    for shape in part.iterfind("geometry/*"):
+        yield "hfield" if shape.tag == "heightmap" else str(shape.tag)
 
 
 def _name(element: XmlElement) -> str:

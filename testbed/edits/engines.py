@@ -13,7 +13,7 @@ from typing import Any
 
 from lxml import etree
 
-from testbed.edits.edited_file import OURS, EditedFile, end, geom_name
+from testbed.edits.edited_file import OURS, EditedFile, end, geom_in
 
 _DIGITS = 6
 _SPRINGS = ("stiffness of joint ", "spring of joint ")
@@ -87,7 +87,7 @@ def _without_carried(file: EditedFile, back: str) -> str:
     root = etree.fromstring(back.encode())
     for geom in [*root.iter("geom")]:
         around = geom.getparent()
-        if around is not None and geom_name(geom) in file.carried_shapes:
+        if around is not None and geom_in(geom) in file.carried_shapes:
             around.remove(geom)
     return etree.tostring(root, encoding="unicode")
 
@@ -201,12 +201,12 @@ def _of_contacts(source: Any, made: Any, matched: Iterable[tuple[int, int]]) -> 
     of_other = {(min(pair), max(pair)) for pair in touching}
     if of_one != of_other:
         before, after = (
-            [_geom_names(source, pair) for pair in sorted(some)[:2]] for some in (of_one - of_other, of_other - of_one)
+            [_geom_ins(source, pair) for pair in sorted(some)[:2]] for some in (of_one - of_other, of_other - of_one)
         )
         yield f"contacts: only before {before}, only after {after}"
 
 
-def _geom_names(model: Any, pair: tuple[int, int]) -> tuple[str, ...]:
+def _geom_ins(model: Any, pair: tuple[int, int]) -> tuple[str, ...]:
     return tuple(model.geom(each).name or f"geom {each}" for each in pair)
 
 
