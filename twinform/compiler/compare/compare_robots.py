@@ -52,6 +52,7 @@ _SHARED = "inertial/inertia"
 _ABOUT_A_LINE = frozenset({"revolute", "continuous", "screw", "gearbox"})
 _ABOUT_A_POINT = frozenset({"ball", "universal", "revolute2"})
 """Joints that have a place on an axis or at a point; others only have directions."""
+_WITH_MOTION = _ABOUT_A_LINE | _ABOUT_A_POINT | {"prismatic"}
 
 
 class RobotComparison:
@@ -325,7 +326,9 @@ class _AlignmentRun:
         if not self.terms.worst(PoseValue(one.frame), PoseValue(other.frame), stay):
             self.bases[name] = follow
             return
-        self.bases[name] = self._best_base(name, [follow, stay])
+        # A joint at another place is a difference of its own, unless the link moves about it as before.
+        known = {follow: 1, stay: int(self._moves_otherwise(one, other, stay))}
+        self.bases[name] = self._best_base(name, known)
         if self.bases[name] is follow:
             self.moved.add(name)
 
@@ -333,26 +336,26 @@ class _AlignmentRun:
         """Find the base of a link without a joint: it may have kept its place in the model, the world or neither."""
         own = Base(self.a.bodies[name].frame, self.b.bodies[name].frame)
         model, world = Base(), self.bases[WORLD]
-        base = self.bases[name] = self._best_base(name, [model, world, own])
+        base = self.bases[name] = self._best_base(name, dict.fromkeys((model, world, own), 0))
         if base is own and self.terms.worst(PoseValue(own.a), PoseValue(own.b)):
             self.placed.add(name)
 
-    def _best_base(self, name: str, candidates: list[Base]) -> Base:
-        """Return the base that leaves the fewest differences; of several, the first."""
-        best, *others = dict.fromkeys(candidates)
-        least = self._misfit(name, best)
-        for base in others:
+    def _best_base(self, name: str, candidates: Mapping[Base, int]) -> Base:
+        """Return the base that leaves the fewest differences beside those that are known; of several, the first."""
+        (best, known), *others = candidates.items()
+        least = self._misfit(name, best, known)
+        for base, known in others:
             if least == _NO_MISFIT:  # most links have not moved
                 break
-            misfit = self._misfit(name, base)
+            misfit = self._misfit(name, base, known)
             if misfit < least:
                 best, least = base, misfit
         return best
 
-    def _misfit(self, name: str, base: Base) -> tuple[int, int]:
+    def _misfit(self, name: str, base: Base, known: int) -> tuple[int, int]:
         """Return how many contents of a link are elsewhere when seen from a base, and whether its frame is."""
         one, other = self.a.bodies[name], self.b.bodies[name]
-        count = sum(1 for _ in unmatched(one.parts, other.parts, self.terms, base))
+        count = known + sum(1 for _ in unmatched(one.parts, other.parts, self.terms, base))
         count += self._mass_misfit(one, other, base) + self._misfit_of_children(name, base)
         return count, bool(self.terms.worst(PoseValue(one.frame), PoseValue(other.frame), base))
 
@@ -366,6 +369,16 @@ class _AlignmentRun:
     def _misfit_of_children(self, name: str, base: Base) -> int:
         joints = [(one, self.b.joints.get(one.name)) for one in self.joints_below.get(name, ())]
         frames = [(self.a.frames[each], self.b.frames.get(each)) for each in self.frames_on.get(name, ())]
-        pairs = [(PoseValue(one.frame), PoseValue(other.frame)) for one, other in joints if other]
-        pairs += [(PoseValue(one.pose), PoseValue(other.pose)) for one, other in frames if other]
-        return sum(1 for one, other in pairs if self.terms.worst(one, other, base))
+        pairs = [(PoseValue(one.pose), PoseValue(other.pose)) for one, other in frames if other]
+        count = sum(1 for one, other in pairs if self.terms.worst(one, other, base))
+        return count + sum(1 for one, other in joints if other and self._moves_otherwise(one, other, base))
+
+    def _moves_otherwise(self, one: JointView, other: JointView, base: Base) -> bool:
+        """Whether a joint has another axis or center when seen from a base, or another place where it has neither."""
+        is_elsewhere = bool(self.terms.worst(PoseValue(one.frame), PoseValue(other.frame), base))
+        if joint_type(one.type) != joint_type(other.type) or one.type not in _WITH_MOTION:
+            return is_elsewhere
+        axes = zip(one.axes, other.axes, strict=False)
+        if any(self.terms.worst(UnitVector(here), UnitVector(there), base) for here, there in axes):
+            return True
+        return is_elsewhere and any(map(self.terms.differs, _gaps_off_axis(one, other, base)))
