@@ -32,8 +32,9 @@ from twinform.passes.shared.replaced_shapes import ShapeReplacer
 
 _RESERVED = {"body": frozenset({"world"})}
 """Names that MuJoCo gives itself, by kind."""
-_CONTENTS = frozenset({"file", "vertex", "elevation", "builtin", "plugin"})
+_CONTENTS = ("file", "vertex", "elevation", "builtin", "plugin")
 """The attributes of assets of which one says what it is."""
+_OF_SHAPES = frozenset({"mesh", "hfield"})
 
 
 class Body(NamedTuple):
@@ -208,14 +209,13 @@ class MjcfContext:
         return self._kept_assets.get((kind, name))
 
     def kept_names(self, kind: str) -> frozenset[str]:
-        """The names of assets that are kept, and are none of those which are written for shapes.
+        """The names of assets that are kept beside those which are written for shapes.
 
-        What is kept of a file that was written here may be the rest of an asset, which is called after its file.
+        What is kept of the asset of a shape has its name where the shape says that name, or else that of its file.
         """
+        has_own_name = self.is_of_mjcf and kind in _OF_SHAPES
         assets = ((name, each) for (of, name), each in self._kept_assets.items() if of == kind)
-        return frozenset(
-            name for name, each in assets if self.is_of_mjcf or not _CONTENTS.isdisjoint(dict(each.attributes))
-        )
+        return frozenset(name for name, each in assets if has_own_name or any(map(each.get, _CONTENTS)))
 
     @cached_property
     def colors(self) -> Mapping[str, str]:
