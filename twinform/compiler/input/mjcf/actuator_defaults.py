@@ -5,7 +5,7 @@ All actuators take what is mechanical, such as `ctrlrange` and `gear`. The gains
 are read as those of the shortcut. A `general` takes the raw numbers that any shortcut stands for.
 """
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from typing import NamedTuple
 
 from twinform.compiler.input.mjcf.number_lists import Numbers, number_text, parse_numbers
@@ -60,13 +60,8 @@ class _State(NamedTuple):
 def actuator_values(element: XmlElement, levels: Sequence[ActuatorLevel]) -> dict[str, str]:
     """Return the values that an actuator takes from its class, which the levels from the top one down make up."""
     states = _states(levels)
-    if (
-        states
-        and element.tag == _GENERAL
-        and _is_shortcut(states[-1])
-        and not any(name in element.attrib for name in _RAW)
-    ):
-        element.tag = states[-1].kind  # a `general` that says nothing of its gains is what its class was written as
+    if states and element.tag == _GENERAL:
+        _write_as_its_class(element, states[-1])
     tag = str(element.tag)
     mechanical = _merged(
         {name: text for name, text in values.items() if name in _MECHANICAL}
@@ -77,7 +72,43 @@ def actuator_values(element: XmlElement, levels: Sequence[ActuatorLevel]) -> dic
         for values in (mechanical, element.attrib):  # it would limit, and the element cannot say that it does not
             values.pop("ctrlrange", None)
     found = {name: text for name, text in mechanical.items() if tag in _ONLY_IN.get(name, ACTUATORS)}
-    return {**found, **_gains(tag, states)}
+    return {**found, **_without_other_damping(_gains(tag, states), {str(name) for name in element.attrib})}
+
+
+def _write_as_its_class(element: XmlElement, state: _State) -> None:
+    """Make a `general` the servo that its class was written as, which is its kind of input too, if it is no other."""
+    if not any(name in element.attrib for name in _RAW) and _is_shortcut(state):
+        element.tag = state.kind
+        return
+    own = {name: str(element.attrib[name]) for name in _RAW if name in element.attrib}
+    servo = None if "input" in element.attrib else _servo_of(state.kind, _merged([_raw_of(state), own]))
+    if servo is not None:
+        element.tag = state.kind
+        for name in own:
+            del element.attrib[name]
+        element.attrib.update(servo)
+
+
+def _servo_of(kind: str, raw: Mapping[str, str]) -> dict[str, str] | None:
+    """Return the gains of a `position` or `velocity` that raw numbers are exactly; None where they are none."""
+    (gain, *more), (place, stiffness, damping, *others) = (
+        (*_list(raw, name, ()), *(0.0,) * 10)[:10] for name in ("gainprm", "biasprm")
+    )
+    is_affine = raw.get("gaintype", "fixed") == "fixed" and raw.get("biastype") == "affine"
+    is_instant = raw.get("dyntype", "none") == "none" and not {"actdim", "actearly"}.intersection(raw)
+    if not (is_affine and is_instant) or any((*more, place, *others)) or damping > 0.0:
+        return None
+    if kind == "position" and stiffness == -gain:
+        return {"kp": number_text([gain]), "kv": number_text([-damping])}
+    if kind == "velocity" and damping == -gain and not stiffness:
+        return {"kv": number_text([gain])}
+    return None
+
+
+def _without_other_damping(values: Mapping[str, str], over: Collection[str]) -> dict[str, str]:
+    """Return the values without the damping of a servo that those over them say in the other way: it is one number."""
+    gone = {other for own, other in (("kv", "dampratio"), ("dampratio", "kv")) if own in over}
+    return {name: text for name, text in values.items() if name not in gone}
 
 
 def _is_shortcut(state: _State) -> bool:
@@ -95,7 +126,7 @@ def _states(levels: Iterable[ActuatorLevel]) -> list[_State]:
                 here = _State(here.kind, _merged([here.values, gains]))
             else:
                 inherited = here.values if here.kind == tag else _gains(tag, above)
-                here = _State(tag, _merged([_without_raw(inherited), gains]))
+                here = _State(tag, _merged([_without_other_damping(_without_raw(inherited), gains), gains]))
         states.append(here)
     return states
 
