@@ -1,5 +1,7 @@
 """Masses of hollow geoms, and of primitives that are fitted to meshes, are those of MuJoCo."""
 
+import math
+import random
 from pathlib import Path
 from typing import Any
 
@@ -8,6 +10,7 @@ import pytest
 import twinform
 from twinform.ir.solids import tensor, turned
 from twinform.ir.transform import Transform
+from twinform.passes.mesh_jobs.obj_polygons import split_polygons
 
 mujoco: Any = pytest.importorskip("mujoco")
 np: Any = pytest.importorskip("numpy")
@@ -117,3 +120,53 @@ def test_what_cannot_be_measured_is_reported(tmp_path: Path, inertial: str, mess
     path.write_text(path.read_text().replace(str(_MESH), "missing.obj"))
     found = twinform.check(path).diagnostics
     assert [each.message for each in found if each.rule.name == "unreadable-mesh"] == [message]
+
+
+def test_a_mesh_with_faces_that_are_not_flat(tmp_path: Path) -> None:
+    corners = [(x, y, z + 0.4 * x * y) for z in (0, 1) for y in (0, 1) for x in (0, 1.5)]
+    faces = ("1 3 4 2", "5 6 8 7", "1 2 6 5", "3 7 8 4", "1 5 7 3", "2 4 8 6")
+    lines = [*(f"v {x} {y} {z}" for x, y, z in corners), *(f"f {face}" for face in faces)]
+    (tmp_path / "bent.obj").write_text("\n".join(lines) + "\n")
+    path = tmp_path / "model.xml"
+    body = '<body name="bent"><joint/><geom type="mesh" mesh="bent"/></body>'
+    path.write_text(
+        '<mujoco model="m"><asset><mesh file="bent.obj"/></asset>'
+        f'<worldbody><body name="base"><geom size="1"/>{body}</body></worldbody></mujoco>'
+    )
+    _are_the_same(path, 1e-6)
+
+
+def _polygons(draw: random.Random, corners: int) -> str:
+    """A tetrahedron, and polygons around several places, some of them bent, concave or crossing themselves."""
+    points, faces = ["v 0 0 0", "v 1 0 0", "v 0 1 0", "v 0 0 1"], ["f 1 3 2", "f 1 2 4", "f 1 4 3", "f 2 3 4"]
+    for number in range(12):
+        turns = sorted(draw.uniform(0, 2 * math.pi) for _ in range(corners))
+        radii = [draw.uniform(0.2, 1.0) if number % 2 else 1.0 for _ in turns]
+        around = [(radius * math.cos(turn), radius * math.sin(turn)) for radius, turn in zip(radii, turns, strict=True)]
+        flat = [(2 * number + x, y, 3 + number % 3 * draw.uniform(0.0, 0.3)) for x, y in around]
+        turned = [each[number % 3 :] + each[: number % 3] for each in flat]
+        faces.append(f"f {' '.join(str(len(points) + 1 + index) for index in range(corners))}")
+        points += [f"v {x:.6f} {y:.6f} {z:.6f}" for x, y, z in turned]
+    return "\n".join([*points, *faces]) + "\n"
+
+
+@pytest.mark.parametrize("corners", [4, 5, 6, 9, 30, 100, 101])
+def test_polygons_are_split_into_the_triangles_of_mujoco(tmp_path: Path, corners: int) -> None:
+    """MuJoCo drops triangles without an area, of which there are none."""
+    text = _polygons(random.Random(corners), corners)
+    file = tmp_path / f"polygons_of_{corners}.obj"  # MuJoCo remembers a file by its name
+    file.write_text(text)
+    asset = f'<asset><mesh name="m" file="{file}" inertia="convex"/></asset>'
+    model = mujoco.MjModel.from_xml_string(f"<mujoco>{asset}</mujoco>")
+    turn = np.zeros(9)
+    mujoco.mju_quat2Mat(turn, model.mesh_quat[0])
+    theirs = model.mesh_vert @ turn.reshape(3, 3).T + model.mesh_pos[0]
+    lines = [line.split() for line in split_polygons(text.encode()).decode().splitlines()]
+    points = np.array([[float(word) for word in words[1:]] for words in lines if words[0] == "v"])
+    ours = np.array([[int(word) - 1 for word in words[1:]] for words in lines if words[0] == "f"])
+    nearest = np.array([np.abs(points - each).sum(axis=1).argmin() for each in theirs])
+    assert _corner_sets(ours) == _corner_sets(nearest[model.mesh_face])
+
+
+def _corner_sets(faces: Any) -> list[list[int]]:
+    return sorted(sorted(each) for each in faces.tolist())

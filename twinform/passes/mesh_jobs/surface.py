@@ -20,6 +20,7 @@ from twinform.passes.mesh_jobs.libraries import Array, np, trimesh
 from twinform.passes.mesh_jobs.mesh_files import RefusedMeshError
 from twinform.passes.mesh_jobs.mesh_writing import turn_z_up
 from twinform.passes.mesh_jobs.mujoco_meshes import KIND, scene_of_msh
+from twinform.passes.mesh_jobs.obj_polygons import split_polygons
 from twinform.schemas import XmlElement
 
 MOST_TRIANGLES = 5_000_000
@@ -48,7 +49,9 @@ class TriangleSurface(NamedTuple):
 
 def parts_of(job: MeshJob, *, appearance: bool = False, finite: bool = True) -> list[tuple[str, Any]]:
     """The meshes that the shape of a job uses, by name, in meters and in their places."""
-    scene: Any = scene_of(job.content, job.kind, companions=job.companions, appearance=appearance)
+    splits = job.options.get("as_mujoco") and job.kind == "obj"
+    content = split_polygons(job.content) if splits else job.content
+    scene: Any = scene_of(content, job.kind, companions=job.companions, appearance=appearance)
     if job.options.get("hull_of_points"):
         scene = _hull_of_points(scene)
     _require_triangles(scene, finite=finite)

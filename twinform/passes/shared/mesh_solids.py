@@ -69,15 +69,17 @@ class Meshes:
         facts = self._result("measure", mesh, {"solid": False, "hull": False}).facts
         return _vector(facts["least"]), _vector(facts["greatest"])
 
-    def triangles(self, mesh: Mesh, *, hull_of_points: bool = False) -> MeshTriangles:
+    def triangles(self, mesh: Mesh, *, as_mujoco: bool = False, hull_of_points: bool = False) -> MeshTriangles:
         """The triangles of the mesh, in the frame of the shape.
 
-        With `hull_of_points`, those of the convex hull of a file that has points alone.
+        `as_mujoco`, polygons are split as MuJoCo does it. With `hull_of_points`, those of the convex hull of a file
+        that has points alone.
 
         Raises:
             MeshError: the file is not there, or cannot be read.
         """
-        files = self._result("surface", mesh, {"hull_of_points": True} if hull_of_points else {}).files
+        wanted: Options = {"as_mujoco": as_mujoco, "hull_of_points": hull_of_points}
+        files = self._result("surface", mesh, {name: True for name, value in wanted.items() if value}).files
         return MeshTriangles(files["points"], files["faces"])
 
     def _result(self, name: str, mesh: Mesh, options: "Options") -> "MeshResult":

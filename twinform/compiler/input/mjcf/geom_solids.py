@@ -165,7 +165,7 @@ class GeomSolids:
         MuJoCo takes the hull if there are no triangles.
         """
         try:
-            return self._meshes.triangles(mesh), False
+            return self._meshes.triangles(mesh, as_mujoco=True), False
         except MeshError as error:
             found = self._hull(mesh)
             so = "its mass is that of the convex hull of its points, as in MuJoCo" if found else f"it {use.otherwise}"
@@ -175,7 +175,7 @@ class GeomSolids:
 
     def _hull(self, mesh: Mesh) -> MeshTriangles | None:
         try:
-            return self._meshes.triangles(mesh, hull_of_points=True)
+            return self._meshes.triangles(mesh, as_mujoco=True, hull_of_points=True)
         except MeshError:
             return None
 
