@@ -56,6 +56,7 @@ _MJCF = sorted([*(_CASES.parent / "mjcf").glob("*.mjcf"), *_CASES.glob("*.expect
 
 _FOLLOWED = frozenset({
     "actuators.mjcf", "attached_twice.mjcf", "chains.expected.xml", "includes.mjcf", "looks.expected.xml",
+    "servos_of_classes.mjcf",
 })  # fmt: skip
 """Cases whose entries stand where a part is used, or is written in the end, and not where the file has its words."""
 

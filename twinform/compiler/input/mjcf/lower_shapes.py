@@ -84,8 +84,10 @@ def _mesh(geom: Piece, assets: AssetTable) -> PlacedShape | None:
         return None
     placed = mesh_of(asset)
     if placed is not None:
-        for name in ("file", "scale", "refpos", "refquat"):
+        for name in ("file", "scale"):
             asset.take(name)
+        if asset.has("refpos") or asset.has("refquat"):  # both stay with the asset, and the geom with its name
+            return placed
         _take_asset(geom, "mesh", asset)
     return placed
 

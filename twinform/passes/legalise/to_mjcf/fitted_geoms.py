@@ -11,6 +11,7 @@ import math
 from twinform.ir import Element, Node, Opaque
 from twinform.ir.defaults import sizes
 from twinform.ir.geometry import Box, Capsule, Cylinder, Shape
+from twinform.ir.node import Vector3
 from twinform.ir.pose import Pose
 from twinform.ir.transform import Transform
 from twinform.passes.carriers.annotations import FITTED, annotation, find_annotation
@@ -56,16 +57,15 @@ def fitted_mesh(part: Node, shape: Shape, asset: Element | None) -> Transform | 
     x, y, z = numbers_in(mark.get("pos")) or (0.0, 0.0, 0.0)
     w, i, j, k = numbers_in(mark.get("quat")) or (1.0, 0.0, 0.0, 0.0)
     file = Transform.from_pose(Pose.unchecked(xyz=(x, y, z), quat_xyzw=(i, j, k, w)))
-    return file.compose(_reference(asset))
+    a, b, c = numbers_in(asset.get("scale")) or (1.0, 1.0, 1.0)
+    return file.compose(mesh_reference(asset, (a, b, c)))
 
 
-def _reference(asset: Element) -> Transform:
-    """Where the frame of a mesh is in that of its file: at its reference pose, unless others say that already."""
-    if asset.get("file") is None:
-        return Transform()
+def mesh_reference(asset: Element, scale: Vector3) -> Transform:
+    """Where the frame of a mesh is in that of its scaled file: at the reference pose that its asset keeps."""
     x, y, z = numbers_in(asset.get("refpos")) or (0.0, 0.0, 0.0)
     w, i, j, k = numbers_in(asset.get("refquat")) or (1.0, 0.0, 0.0, 0.0)
-    a, b, c = numbers_in(asset.get("scale")) or (1.0, 1.0, 1.0)
+    a, b, c = scale
     return Transform.from_pose(Pose.unchecked(xyz=(a * x, b * y, c * z), quat_xyzw=(i, j, k, w)))
 
 

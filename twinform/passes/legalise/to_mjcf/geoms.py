@@ -29,7 +29,7 @@ from twinform.passes.carriers.old_names import source_name
 from twinform.passes.legalise.to_mjcf.assets import height_field, mesh_asset, vector_in
 from twinform.passes.legalise.to_mjcf.contacts import touch_of
 from twinform.passes.legalise.to_mjcf.elements import ENDLESS, GRID, Attributes, Value, make_element, placement
-from twinform.passes.legalise.to_mjcf.fitted_geoms import fitted_mesh, geom_size, without_mesh
+from twinform.passes.legalise.to_mjcf.fitted_geoms import fitted_mesh, geom_size, mesh_reference, without_mesh
 from twinform.passes.legalise.to_mjcf.kept_mjcf import kept_elements, kept_of_geom, with_kept
 from twinform.passes.legalise.to_mjcf.looks import has_look, look
 from twinform.passes.legalise.to_mjcf.materials import look_of, with_known_material
@@ -236,8 +236,7 @@ def _solid(context: MjcfContext, body: Body, shape: Shape, part: Visual | Collis
     """The shape in MJCF; why it has none; or None where that was reported."""
     match shape:
         case Mesh():
-            name = mesh_asset(context, shape, kept_of_geom(part, "mesh"), touches=isinstance(part, Collision))
-            return None if name is None else Solid([("type", "mesh"), ("mesh", name)])
+            return _mesh(context, shape, part)
         case Plane():
             if body.moves:
                 return "is a plane on a link that moves, and MuJoCo takes planes on fixed bodies alone"
@@ -258,6 +257,17 @@ def _solid(context: MjcfContext, body: Body, shape: Shape, part: Visual | Collis
             return Solid([("type", shape.kind), ("size", size)])
         case _:
             return f"has the shape {shape.kind}, which MJCF does not have"
+
+
+def _mesh(context: MjcfContext, shape: Mesh, part: Visual | Collision) -> Solid | None:
+    """A mesh, whose asset may keep the reference pose that it had in MJCF."""
+    wanted, scale = kept_of_geom(part, "mesh"), shape.scale or (1.0, 1.0, 1.0)
+    kept = context.kept_asset("mesh", wanted) if wanted else None
+    at = Transform() if kept is None else mesh_reference(kept, scale)
+    if len(set(scale)) > 1 and not at.is_unturned:
+        wanted, at = "", Transform()  # MuJoCo scales what it has turned
+    name = mesh_asset(context, shape, wanted, touches=isinstance(part, Collision))
+    return None if name is None else Solid([("type", "mesh"), ("mesh", name)], at if name == wanted else Transform())
 
 
 def _plane(shape: Plane, kept: Sequence[float]) -> Solid:
