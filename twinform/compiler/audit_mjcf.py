@@ -20,8 +20,9 @@ _OF_TORSION = (("patch_radius", "0"), ("coefficient", "1"))
 _WITH_HALF_SIZES = frozenset({"geom", "hfield"})
 COMPUTED = frozenset(
     {
-        "axis", "axisangle", "biasprm", "cutoff", "density", "diaginertia", "dir", "euler", "fovy", "fromto", "fullinertia",
-        "gainprm", "gravity", "mass", "pos", "quat", "range", "refpos", "refquat", "size", "springref", "xyaxes", "zaxis",
+        "axis", "axisangle", "biasprm", "cutoff", "density", "diaginertia", "dir", "euler", "fovy", "fromto",
+        "fullinertia", "gainprm", "gravity", "mass", "pos", "quat", "range", "refpos", "refquat", "size", "springref",
+        "xyaxes", "zaxis",
     }
 )  # fmt: skip
 """Attributes whose numbers are in other units or frames in SDF and URDF, or of which others are computed."""
