@@ -8,6 +8,7 @@ from typing import TypeVar
 
 from twinform.ir import (
     Collision,
+    Cone,
     Element,
     Heightmap,
     Joint,
@@ -18,6 +19,7 @@ from twinform.ir import (
     Node,
     Opaque,
     Plane,
+    Polyline,
     Sensor,
     Visual,
     World,
@@ -61,6 +63,8 @@ from twinform.passes.legalise.to_mjcf.writing_context import KeptSensor, safe_na
 from twinform.passes.legalise.to_sdf.joint_types import FLOATING
 
 AnyShape = TypeVar("AnyShape", Visual, Collision)
+_WRITTEN_OTHERWISE = (Cone, Heightmap, Plane, Polyline)
+"""The shapes that MJCF lacks, turns or moves."""
 _MASKS = frozenset(f"contact/{each}" for each in MASKS)
 _OF_CONSTRAINTS = frozenset({"ball", "fixed"})
 """The types of joints that constraints are read as."""
@@ -290,9 +294,9 @@ def _without_hidden(joint: Joint) -> Joint:
 
 
 def _is_told(shape: Visual | Collision) -> bool:
-    """Whether a shape may name its file by a scheme, where MJCF has paths, or be in a place of its own in its pose."""
+    """Whether a shape may be a mesh in MJCF, name its file by a scheme, or be in a place of its own in its pose."""
     found = shape.geometry.shape if shape.geometry else None
-    return isinstance(found, Plane | Heightmap) or (isinstance(found, Mesh) and "://" in (found.uri or ""))
+    return isinstance(found, _WRITTEN_OTHERWISE) or (isinstance(found, Mesh) and "://" in (found.uri or ""))
 
 
 def _has_more_shapes(left: Node) -> bool:
