@@ -100,6 +100,8 @@ class WrittenFile:
                     names = (context.written_slides[node.name], *names)
             case Frame():
                 names = (context.written_sites.get(node.name, node.name),)
+            case Sensor() if (read := context.kept_sensors.get(id(node.source))) is not None:
+                names = (read.name,)
             case _:
                 return ()
         return () if names == (node.name,) else names
