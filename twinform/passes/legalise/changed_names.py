@@ -14,7 +14,7 @@ An annotation has the name that it was made for: where that was edited since, th
 """
 
 from collections.abc import Collection, Iterable, Iterator
-from typing import ClassVar, TypeVar
+from typing import ClassVar, NamedTuple, Self, TypeVar
 
 from twinform.diagnostics import DiagnosticSink, rules
 from twinform.diagnostics.rules import STALE_CARRIER
@@ -42,7 +42,7 @@ from twinform.passes.carriers.old_names import NAME, annotated_name, with_old_na
 from twinform.passes.framework.pass_base import ModelPass
 from twinform.passes.legalise.to_urdf_pass import ToUrdfPass, UrdfKeeper
 from twinform.passes.shared.nodes import reserve_name
-from twinform.passes.shared.poses import NESTED
+from twinform.passes.shared.poses import FRAME, NESTED
 from twinform.passes.structure.rename_parts import Part, follow_references, rename_model, scope_of
 
 COLORS = "colors"
@@ -95,6 +95,7 @@ SCOPED_NAME = "scoped-name"
 """The annotation on a link, joint or frame of URDF with the name, such as `arm::hand`, that it has in SDF."""
 Names = dict[tuple[Part, str], str]
 """New names by the kind of part and its old name."""
+_SHARED = "would share that name with another"
 _FIELDS: dict[Part, str] = {"link": "links", "joint": "joints", "frame": "frames"}
 
 
@@ -120,6 +121,34 @@ def scoped_name(node: Link | Joint | Frame) -> str:
     """The name of a link, joint or frame of URDF in SDF: the annotated one, or else its own."""
     found = find_annotation(node, SCOPED_NAME)
     return found.text or "" if found and found.get("instead_of") == node.name else node.name
+
+
+class _Surroundings(NamedTuple):
+    """What tells whether a part may have its old name: links, those with sensors of their own, and models around it.
+
+    `scopes` is None where a scope in a name is that of no model.
+    """
+
+    links: frozenset[str]
+    sensed: frozenset[str | None]
+    scopes: frozenset[str] | None
+
+    @classmethod
+    def of(cls, model: Model, *, in_models: bool) -> Self:
+        """Look through a model."""
+        sensed = (each.reference for each in model.extensions if any(one.name == "sensor" for one in each.content))
+        links = (each.name for each in model.links)
+        return cls(frozenset(links), frozenset(sensed), frozenset(_scopes(model)) if in_models else None)
+
+    def why_not(self, name: str, given: str, old: str) -> str | None:
+        """Why a part of this name, which it was given, does not get its old one back; None where it does."""
+        if given != name:
+            return "has another name now"
+        if name in self.sensed and old in self.links:
+            return "has a sensor now, which would be one of the link of that name"
+        if self.scopes is not None and not self.scopes.issuperset(scopes_in(old)):
+            return "is in a nested model that the file no longer describes"
+        return None
 
 
 class RestoreNames(ModelPass):
@@ -149,29 +178,23 @@ class RestoreNames(ModelPass):
         if not annotated:
             return model
         names: Names = {}
+        sites = set[int]()
+        around = _Surroundings.of(model, in_models=kind == SCOPED_NAME and not wrote_scopes(model))
         taken = {self._key(part, node.name) for part, field in _FIELDS.items() for node in getattr(model, field)}
-        scopes = _scopes(model)
-        sensed = {each.reference for each in model.extensions if any(one.name == "sensor" for one in each.content)}
         for part, node, now, old in annotated:
-            why = None
             if self.unique and part == "joint" and now == node.name and self._key(part, old) in taken:
                 names[part, node.name] = f"{old.strip('_')}_joint"
                 continue
-            if now != node.name:
-                why = "has another name now"
-            elif self._key(part, old) in taken:
-                why = "would share that name with another"
-            elif node.name in sensed and any(old == link.name for link in model.links):
-                why = "has a sensor now, which would be one of the link of that name"
-            elif kind == SCOPED_NAME and not (wrote_scopes(model) or scopes.issuperset(scopes_in(old))):
-                why = "is in a nested model that the file no longer describes"
-            if why:
+            why = _SHARED if now == node.name and self._key(part, old) in taken else around.why_not(node.name, now, old)
+            if why == _SHARED and find_annotation(node, FRAME) is not None:  # a site of MJCF may be called as a body is
+                sites.add(id(node))
+            elif why:
                 message = f"{part} {node.name!r} was called {old!r}, and {why}"
                 sink.report(STALE_CARRIER, message, node.location, found=old)
-                continue
-            taken.add(self._key(part, old))
-            names[part, node.name] = old
-        kept = {id(node) for _, node, _, old in found if self._is_of_mjcf(old)}
+            else:
+                taken.add(self._key(part, old))
+                names[part, node.name] = old
+        kept = sites | {id(node) for _, node, _, old in found if self._is_of_mjcf(old)}
         update = {
             field: tuple(node if id(node) in kept else without_annotation(node, kind) for node in getattr(model, field))
             for field in _FIELDS.values()

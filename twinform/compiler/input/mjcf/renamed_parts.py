@@ -1,13 +1,13 @@
 """The names that links, joints and frames had before they were written as MJCF, which has names for each kind."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from twinform.ir import Format, Frame, Joint, Link, Model, replace_fields
 from twinform.ir.frames import WORLD
 from twinform.ir.scopes import SCOPE, scopes_of
 from twinform.passes.carriers.annotations import MADE_NAME, find_annotation, is_synthesized, without_annotation
 from twinform.passes.carriers.mjcf_texts import LOOP
-from twinform.passes.carriers.old_names import NAME, annotated_name
+from twinform.passes.carriers.old_names import NAME, annotated_name, old_name
 from twinform.passes.carriers.partial_nodes import written_name, written_names
 from twinform.passes.legalise.changed_names import Names, renamed
 from twinform.passes.shared.nodes import unique_name
@@ -53,7 +53,7 @@ def renamed_parts(
                 names[part, node.name] = old
     _name_hidden(model, joints, names)
     _name_fixed(model, joints, names)
-    taken, between = set(names.values()), _between(model)
+    taken, between, shared = set(names.values()), _between(model), dict[tuple[Part, str], str]()
     for part, node in free:
         if (part, node.name) not in names:
             written = between.get(node.name) or name_in_file(node)
@@ -63,20 +63,30 @@ def renamed_parts(
             new = unique_name(wish, taken)
             names[part, node.name] = new
             taken.add(new)
-    plain = {
-        field: tuple(without_annotation(each, NAME, MADE_NAME) for each in getattr(model, field))
-        for _, field in _FIELDS
-    }
+            if is_kept and new != written and node.name not in between:  # a name that a part of another kind has
+                shared[part, new] = written
     # Nothing refers to a joint that has no name in the file, so that nothing has to follow it.
     unnamed = {
         ("joint", each.name) for each in model.joints if is_synthesized(each) or find_annotation(each, MADE_NAME)
     }
     changed = {key: new for key, new in names.items() if key[1] != new and key not in unnamed}
-    bare = replace_fields(model, **plain)
+    bare = _with_own_names(model, {})
     whole = renamed(bare, changed, Format.SDF) if changed else bare
     pairs = ((("joint", old.name), new) for old, new in zip(model.joints, whole.joints, strict=True))
     joints = tuple(new.copy(name=names[key]) if key in unnamed and key in names else new for key, new in pairs)
-    return replace_fields(whole, joints=joints)
+    return _with_own_names(replace_fields(whole, joints=joints), shared)
+
+
+def _with_own_names(model: Model, names: Mapping[tuple[Part, str], str]) -> Model:
+    """The model without annotations of names in the file, but on parts that cannot have these `names`."""
+
+    def named(part: Part, node: Node) -> Node:
+        bare, written = without_annotation(node, NAME, MADE_NAME), names.get((part, node.name))
+        return bare if written is None else bare.copy(opaque=(old_name(written, node.name), *bare.opaque))
+
+    return replace_fields(
+        model, **{field: tuple(named(part, each) for each in getattr(model, field)) for part, field in _FIELDS}
+    )
 
 
 def with_hidden_names(model: Model, partials: Sequence[Joint]) -> Model:
