@@ -55,8 +55,9 @@ from twinform.passes.legalise.to_mjcf.contact_plan import MASKS
 from twinform.passes.legalise.to_mjcf.friction import friction_of, rolling_of, torsional_part, with_rolling
 from twinform.passes.legalise.to_mjcf.geoms import turn_up_to
 from twinform.passes.legalise.to_mjcf.inertials import weight_parts
-from twinform.passes.legalise.to_mjcf.kept_mjcf import KEPT
+from twinform.passes.legalise.to_mjcf.kept_mjcf import KEPT, kept_elements
 from twinform.passes.legalise.to_mjcf.said_parts import child_number, untyped, without_elements
+from twinform.passes.legalise.to_sdf.joint_types import FLOATING
 from twinform.passes.shared.poses import read_vector
 from twinform.schemas import XmlElement, format_value
 
@@ -80,7 +81,7 @@ class Spellings:
         self._geoms = {each.get("name") or "": each for each in root.iter("geom")}
         self._assets = {(str(each.tag), each.get("name")): each for each in root.iterfind("asset/*")}
         self._by_class: Mapping[type[Node], Callable[[Any, Any], tuple[Node, Node]]] = {
-            Link: lambda node, partial: (node, _with_own_names(node, partial)),
+            Link: lambda node, partial: _with_floating(node, _with_own_names(node, partial)),
             Visual: self._of_visual,
             Collision: lambda node, partial: _without_name_of_file(*self._with_rolling(*_with_shape(node, partial))),
             Surface: lambda node, partial: _with_torsion(*_with_second_coefficient(node, partial)),
@@ -184,6 +185,33 @@ def _with_own_names(node: Link, partial: Link) -> Link:
         found = ((each, written_name(each)) for each in visuals)
         visuals = tuple(each.copy(name=names.get(name, name)) if name in twins else each for each, name in found)
     return partial.copy(visuals=visuals, collisions=collisions)
+
+
+def _with_floating(node: Link, partial: Link) -> tuple[Link, Link]:
+    """The floating joint of a URDF, which is called as the free joint in the file."""
+    floating = find_annotation(partial, FLOATING)
+    free = next((each for each in kept_elements(node) if each.name == "freejoint" and each.get("name")), None)
+    if floating is None or free is None:
+        return node, partial
+    others = tuple(pair for pair in floating.attributes if pair[0] != "joint")
+    named = floating.copy(attributes=(("joint", free.get("name") or ""), *others))
+    parts = tuple(part.copy(element=named) if part.element is floating else part for part in partial.opaque)
+    return node.copy(opaque=_without_name(node.opaque, free)), partial.copy(opaque=parts)
+
+
+def _without_name(parts: tuple[Opaque, ...], free: Element) -> tuple[Opaque, ...]:
+    """What a link keeps, without the name of its free joint, or without that where it has no more."""
+    left = _without(free, {"name"})
+    found: list[Opaque] = []
+    for part in parts:
+        if part.element is None or all(each is not free for each in part.element.children):
+            found.append(part)
+            continue
+        own = [left] if left.attributes or left.children else []
+        children = [one for each in part.element.children for one in (own if each is free else [each])]
+        if children:
+            found.append(part.copy(element=part.element.copy(children=tuple(children))))
+    return tuple(found)
 
 
 def _without_taken(partials: tuple[AnyShape, ...], names: set[str | None]) -> Iterator[AnyShape]:

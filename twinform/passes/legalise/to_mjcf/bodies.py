@@ -23,6 +23,7 @@ from twinform.passes.legalise.to_mjcf.lights import body_lights
 from twinform.passes.legalise.to_mjcf.sensors import body_sensors, joint_sensors
 from twinform.passes.legalise.to_mjcf.sites import body_sites
 from twinform.passes.legalise.to_mjcf.writing_context import Body, MjcfContext
+from twinform.passes.legalise.to_sdf.joint_types import FLOATING
 
 _INSIDE = frozenset({"camera", "site", "light", "geom", "plugin", "composite", "flexcomp", "attach"})
 """What a link keeps of its body that SDF has nothing for, such as a camera that follows another body."""
@@ -48,11 +49,18 @@ def body_elements(context: MjcfContext) -> list[Element]:
     return _BodyTree(context).elements()
 
 
-def _free_joint(link: Link) -> Element:
-    """The joint of a body that floats: one without settings, unless the link keeps one with a damping or the like."""
+def _free_joint(context: MjcfContext, body: Body) -> Element:
+    """The joint of a body that floats: one without settings, unless the link keeps one with a damping or the like.
+
+    It has the name of the floating joint of a URDF, which SDF has no joint for. In a model beside others it has none,
+    since what is read of MJCF has no scope there.
+    """
+    link = body.link
     if any(each.name == "joint" for each in kept_elements(link)):
         return with_kept(make_element("joint", [("type", "free")]), link)
-    return with_kept(make_element("freejoint"), link)
+    floating = None if context.is_of_mjcf or body.scope else find_annotation(link, FLOATING)
+    name = None if floating is None else context.name("joint", floating.get("joint"), link)
+    return with_kept(make_element("freejoint", [("name", name)]), link)
 
 
 class _BodyTree:
@@ -157,7 +165,7 @@ class _BodyTree:
         """What is in a body beside the bodies in it."""
         context = self.context
         is_free = body.moves and not hold.joints
-        free = [_free_joint(body.link)] if is_free else []
+        free = [_free_joint(context, body)] if is_free else []
         return [
             *inertial_elements(context, body),
             *free,
