@@ -140,8 +140,11 @@ class ContactPlan:
         """The pairs of links that must not touch, and would by their bits."""
         pairs = {} if self._is_of_mjcf else dict.fromkeys(self._joined())
         for links in self._groups.values():
-            if not any(link in self._bits for link in links):
-                pairs |= dict.fromkeys(pair for pair in self._needless_contacts(links) if self._touch(*pair))
+            found = self._needless_contacts(links)
+            if any(link in self._bits for link in links):  # these do not touch, but where geoms keep others
+                kept = {link for link in links if any(map(_kept_bits, self._tree.links[link].collisions))}
+                found = (pair for pair in found if not kept.isdisjoint(pair)) if kept else iter(())
+            pairs |= dict.fromkeys(pair for pair in found if self._touch(*pair))
         return tuple(pairs)
 
     @cached_property
