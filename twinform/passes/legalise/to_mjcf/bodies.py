@@ -135,8 +135,9 @@ class _BodyTree:
     def _body(self, name: str, hold: Hold, above: dict[str, Body]) -> Body:
         link = self.tree.links[name]
         own = self.context.old_name("body", self.context.scope_of(name), link)
-        # Of a URDF with nothing but a link `world` MJCF has the name that SDF has: the world itself has the other.
-        wish = self.context.wish("body", self.context.scope_of(name), link.name if own == WORLD else own)
+        # Of a link `world` MJCF has the name that SDF has in newer versions: the world itself has the other.
+        own = f"{WORLD}_link" if own == link.name == WORLD else link.name if own == WORLD else own
+        wish = self.context.wish("body", self.context.scope_of(name), own)
         written = WORLD if name == self.world else self.context.name("body", wish, link) or name
         self.context.note_made_name(
             "body", link, written, f"{above[hold.parent].link.name}_body" if hold.parent else "body"
