@@ -92,8 +92,8 @@ class _HolderContacts:
         models = [found for scope, model in tops for found in scoped_models(model, scope)]
         static = tuple(scope for scope, each in models if each.static)
         self.tree = tree = KinematicTree(holder)
-        links = frozenset(name for name in tree.links if name.startswith(static)) if static else frozenset[str]()
-        self.plan = ContactPlan(holder, tree, links, is_of_mjcf=False)
+        self.static = frozenset(name for name in tree.links if name.startswith(static)) if static else frozenset[str]()
+        self.plan = ContactPlan(holder, tree, self.static, is_of_mjcf=False)
         self.names = {id(link): name for name, link in tree.links.items()}
 
     def touching_links(self) -> set[str]:
@@ -132,7 +132,10 @@ class _HolderContacts:
             expected = Touch(*self.plan.bits(link, collision), priorities[friction_of(collision)])
             return _with_differences(without_annotation(collision, _TOUCH), note, expected)
 
-        return _excluding(rewrite(self.holder, Link, settled, having=ANYTHING), self.plan)
+        made = rewrite(self.holder, Link, settled, having=ANYTHING)
+        if not any(map(self._is_edited, self.tree.links)):
+            return _excluding(made, self.plan)
+        return _excluding(made, ContactPlan(made, KinematicTree(made), self.static, is_of_mjcf=False))
 
 
 def _written_bits(collision: Collision) -> Bits | None:
