@@ -75,7 +75,7 @@ def _camera_parts(context: MjcfContext, sensor: Sensor, body: Body, place: Trans
 
 
 def _lidar_parts(context: MjcfContext, sensor: Sensor, body: Body, place: Transform) -> SensorParts | None:
-    made = rangefinder_parts(context, sensor, body.scope + (sensor.name or "lidar"), place)
+    made = rangefinder_parts(context, sensor, context.wish("site", body.scope, sensor.name or "lidar"), place)
     if made is None:
         message = f"lidar {sensor.name!r} has no or more than {MOST_RAYS} rays, and MuJoCo needs a site for each"
         context.account(rules.NOT_IN_MJCF, message, sensor.location, 0)
@@ -90,8 +90,8 @@ def _contact_parts(context: MjcfContext, sensor: Sensor, body: Body) -> SensorPa
     for each in body.link.collisions:
         geom = context.written_geoms.get(id(each))
         if geom is not None and each.name in names:
-            wanted = f"{body.scope}{sensor.name}" if len(names) == 1 else f"{body.scope}{sensor.name}_{each.name}"
-            name = context.name("sensor", wanted, sensor.location)
+            own = f"{sensor.name}" if len(names) == 1 else f"{sensor.name}_{each.name}"
+            name = context.name("sensor", context.wish("sensor", body.scope, own), sensor.location)
             made.append(make_contact(name, geom))
     return SensorParts([], made) if made else None
 
@@ -102,5 +102,5 @@ def make_contact(name: str | None, geom: str) -> Element:
 
 
 def _site_name(context: MjcfContext, sensor: Sensor, body: Body) -> str:
-    wanted = body.scope + (sensor.name or sensor.type or "sensor")
+    wanted = context.wish("site", body.scope, sensor.name or sensor.type or "sensor")
     return context.name("site", wanted, sensor.location) or wanted
