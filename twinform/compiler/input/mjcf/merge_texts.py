@@ -14,6 +14,7 @@ from twinform.compiler.input.mjcf.lower_inertials import with_zeros
 from twinform.compiler.input.mjcf.merge_parts import merge_parts
 from twinform.compiler.input.mjcf.models_of_world import (
     is_held,
+    is_static,
     with_joints_between,
     with_models,
     with_nested,
@@ -38,6 +39,7 @@ from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Document, Format, Frame, Joint, Link, Model, Node, Opaque, World, replace_fields, rewrite
 from twinform.ir.element import Namespaces
 from twinform.ir.frames import WORLD, FrameError, FrameGraph
+from twinform.ir.scopes import SCOPE
 from twinform.passes.carriers.annotations import (
     FROM,
     came_from,
@@ -182,7 +184,7 @@ class _Merged:
         known = {each.name for each in between}
         self.links = [each for each in self.links if each.name not in whole or each.name not in known]
         holds = is_held(model)  # as the file has it; a joint that a carrier has of a static model cannot move
-        joints = without_stand_ins(model.copy(joints=joints), self.joints).joints
+        joints = without_stand_ins(model.copy(joints=joints), self._of_static_models(partial)).joints
         links = self.merging.merge_all(between, tuple(without_annotation(each, WRITTEN) for each in self.links))
         ends = {WORLD, *(each.name for each in links), *(each.name for each in (*model.frames, *self.frames))}
         joints = self.merging.merge_all(joints, tuple(self._typed(joints, ends)))
@@ -198,6 +200,13 @@ class _Merged:
             partial = partial.copy(static=None)
         partial = partial.copy(name=self._name(partial))
         return self._let_go(self.merging.merge(model, partial), made, is_static=is_static)
+
+    def _of_static_models(self, partial: Model | None) -> list[Joint]:
+        """The joints of static models, as carriers tell: there they cannot move, and are fixed in the file."""
+        if partial is not None and partial.static:
+            return self.joints
+        static = tuple(each.name + SCOPE for each in self.frames if is_static(each)) or "\0"
+        return [each for each in self.joints if (each.child or "").startswith(static)]
 
     def _name(self, partial: Model | World) -> str:
         """The name of a model or world: that of the file, unless it has none or the one that was written."""
