@@ -53,7 +53,6 @@ def with_nested(model: Model, *, in_models: bool = True) -> Model:
 
     Without `in_models`, a link is in one model; what else its name has before `::` is part of a name.
     """
-    model = with_joints_between(model, in_models=in_models)
     known = {each.name for each in model.frames}
 
     def scopes(link: str) -> Iterable[str]:
@@ -62,7 +61,8 @@ def with_nested(model: Model, *, in_models: bool = True) -> Model:
 
     first = {scope: each.name for each in reversed(model.links) for scope in scopes(each.name)}
     frames = tuple(_frame_of(name, link, is_made=False) for name, link in first.items() if name not in known)
-    return model.copy(frames=(*model.frames, *reversed(frames))) if frames else model
+    model = model.copy(frames=(*model.frames, *reversed(frames))) if frames else model
+    return with_joints_between(model, in_models=in_models)
 
 
 def without_moved_statics(frames: Iterable[Frame], model: Model, sink: DiagnosticSink) -> Iterator[Frame]:
