@@ -288,18 +288,19 @@ def _sdf_xml(node: Node, tag: str) -> XmlElement:
     made = node_xml("sdf", node, tag)
     if isinstance(node, Sensor):
         _use_new_names(made)
-        _sort_collisions(made)
+        _name_collisions_once(made)
     return made
 
 
-def _sort_collisions(sensor: XmlElement) -> None:
-    """Name each of the collisions whose contacts a sensor tells of once, in the order of their names: it has none."""
+def _name_collisions_once(sensor: XmlElement) -> None:
+    """Remove repetitions of the collisions whose contacts a sensor tells of."""
+    known = set[str]()
     for contact in sensor.iterchildren("contact"):
-        found = [*contact.iterchildren("collision")]
-        by_name = {(each.text or "").strip(): each for each in reversed(found)}
-        for each in found:
-            contact.remove(each)
-        contact.extend(by_name[name] for name in sorted(by_name))
+        for collision in [*contact.iterchildren("collision")]:
+            name = (collision.text or "").strip()
+            if name in known:
+                contact.remove(collision)
+            known.add(name)
 
 
 def _use_new_names(sensor: XmlElement) -> None:
