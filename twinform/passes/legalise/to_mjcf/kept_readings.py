@@ -85,7 +85,7 @@ def _measures(sensor: Sensor, body: Body, kept: list[Element]) -> bool:
         return False
     match sensor.type:
         case "contact":
-            return not _touching(body).isdisjoint(_collisions(sensor))
+            return not set(_touching(body)).isdisjoint(_collisions(sensor))
         case "gpu_lidar":
             lidar = untyped(sensor, "lidar")
             farthest = float(kept[0].get("cutoff") or 0.0) or _FARTHEST
@@ -104,14 +104,14 @@ def _are_written(context: MjcfContext, kept: list[Element]) -> bool:
     return any(each.get("name") and (each.name, each.get("name")) in known for each in kept)
 
 
-def _collisions(sensor: Sensor) -> frozenset[str | None]:
+def _collisions(sensor: Sensor) -> tuple[str | None, ...]:
     """The collisions of whose contacts a sensor tells."""
     contact = untyped(sensor, "contact")
-    return frozenset(each.text for each in contact.find_all("collision")) if contact is not None else frozenset()
+    return tuple(each.text for each in contact.find_all("collision")) if contact is not None else ()
 
 
-def _touching(body: Body) -> frozenset[str | None]:
-    return frozenset(each.name for each in body.link.collisions)
+def _touching(body: Body) -> tuple[str | None, ...]:
+    return tuple(each.name for each in body.link.collisions)
 
 
 def _at(reading: Element, site: str) -> Element:
