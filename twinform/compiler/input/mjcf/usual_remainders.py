@@ -1,11 +1,12 @@
 """Attributes of MJCF that are in every file which is written here, and say nothing of a robot that comes back."""
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from typing import TypeVar
 
 from twinform.ir import Collision, Element, Model, Node, Opaque, Visual, replace_fields, rewrite
 from twinform.passes.carriers.carriers import bits_of_ours
 from twinform.passes.legalise.to_mjcf.kept_mjcf import KEPT
+from twinform.passes.legalise.to_mjcf.named_assets import names_of_assets
 
 AnyNode = TypeVar("AnyNode", bound=Node)
 
@@ -41,7 +42,7 @@ def without_named(node: AnyNode, names: Collection[tuple[str, str]]) -> AnyNode:
         if part.element is None or not _is_kept(part):
             return part
         sections = tuple(
-            section.copy(children=tuple(each for each in section.children if _name_of(each) not in names))
+            section.copy(children=_without(section.children, names))
             if section.name in {"asset", "equality"}
             else section
             for section in part.element.children
@@ -49,6 +50,13 @@ def without_named(node: AnyNode, names: Collection[tuple[str, str]]) -> AnyNode:
         return _left_of(part.copy(element=part.element.copy(children=sections)))
 
     return replace_fields(node, opaque=tuple(made for part in node.opaque if (made := left(part)) is not None))
+
+
+def _without(elements: Sequence[Element], names: Collection[tuple[str, str]]) -> tuple[Element, ...]:
+    """The elements without those of these names; a texture that another material has is kept with that."""
+    left = {id(each) for each in elements if _name_of(each) not in names}
+    needed = {name for each in elements if id(each) in left for inner in each.walk() for name in names_of_assets(inner)}
+    return tuple(each for each in elements if id(each) in left or _name_of(each) in needed)
 
 
 def without_assets(model: Model, names: Collection[tuple[str, str]]) -> Model:

@@ -45,12 +45,12 @@ class NamedAssets(NamedTuple):
             return ()
         found: set[Name] = set()
         elements = (each for node in walk(model) if node.opaque for kept in kept_elements(node) for each in kept.walk())
-        left = [key for element in elements for key in _names(element)]
+        left = [key for element in elements for key in names_of_assets(element)]
         while left:
             key = left.pop()
             if key in self.kept and key not in found:
                 found.add(key)
-                left += (name for each in self.kept[key].walk() for name in _names(each))
+                left += (name for each in self.kept[key].walk() for name in names_of_assets(each))
         return tuple(each for key, each in self.kept.items() if key in found)
 
 
@@ -68,7 +68,7 @@ def without_assets(part: Opaque, gone: Collection[Element]) -> Opaque | None:
     return part.copy(element=part.element.copy(children=left)) if left else None
 
 
-def _names(element: Element) -> Iterator[Name]:
+def names_of_assets(element: Element) -> Iterator[Name]:
     """Yield the kinds and names of the assets that an element names."""
     attributes = dict(element.attributes)
     for key, kind in naming_attributes(element.name, attributes):
