@@ -8,6 +8,7 @@ from twinform.diagnostics import rules
 from twinform.ir import Element, Sensor
 from twinform.ir.kinematic_tree import JointBetween
 from twinform.ir.transform import Transform
+from twinform.ir.verify.verify_names import report_names
 from twinform.passes.legalise.to_mjcf.cameras import camera_element
 from twinform.passes.legalise.to_mjcf.kept_readings import add_kept_readings
 from twinform.passes.legalise.to_mjcf.rangefinders import MOST_RAYS, rangefinder_parts
@@ -25,8 +26,10 @@ _CAMERAS = frozenset({
 
 
 def body_sensors(context: MjcfContext, body: Body) -> list[Element]:
-    """The sites and cameras of a body, for the sensors of its link."""
+    """The sites and cameras of a body, for the sensors of its link; two of one name, as URDF may have them, are errors."""
     found: list[Element] = []
+    if len({each.name for each in body.link.sensors}) < len(body.link.sensors):
+        report_names("sensor", body.link.sensors, context.sink)
     for sensor in body.link.sensors:
         if not add_kept_readings(context, sensor, body):
             found += _written(context, sensor, _link_sensor(context, sensor, body))
