@@ -97,9 +97,10 @@ def geom_elements(context: MjcfContext, body: Body) -> list[Element]:
 
 
 def _is_one_geom(twin: Visual, collision: Collision) -> bool:
-    """Whether a visual is still one geom with a collision: one that is wholly transparent is read as no visual."""
+    """Whether a visual is still one geom with a collision: one that is transparent or hidden is read as no visual."""
     *_, alpha = look(twin).rgba or (1.0,)
-    return (twin.geometry, twin.pose) == (collision.geometry, collision.pose) and alpha > 0.0
+    is_shown = alpha > 0.0 and _kept_group(collision) in {"", "0", "1", "2"}
+    return is_shown and (twin.geometry, twin.pose) == (collision.geometry, collision.pose)
 
 
 def _with_hidden_alone(context: MjcfContext, body: Body, geoms: list[Element]) -> list[Element]:
