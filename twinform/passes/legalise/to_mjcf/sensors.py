@@ -26,7 +26,7 @@ _CAMERAS = frozenset({
 
 
 def body_sensors(context: MjcfContext, body: Body) -> list[Element]:
-    """The sites and cameras of a body, for the sensors of its link; two of one name, as URDF may have them, are errors."""
+    """The sites and cameras of a body, for the sensors of its link; two of one name, as in some URDF, are an error."""
     found: list[Element] = []
     if len({each.name for each in body.link.sensors}) < len(body.link.sensors):
         report_names("sensor", body.link.sensors, context.sink)
