@@ -5,7 +5,7 @@ Each link, joint, frame, model or world has one text, which holds the partial no
 of the source, and what stands beside the model or world that is written.
 """
 
-from twinform.ir import OPAQUE, Frame, Joint, Light, Model, Node, Sensor, World, rewrite
+from twinform.ir import PLAIN, Frame, Joint, Light, Model, Node, Sensor, World, rewrite
 from twinform.ir.frames import MODEL
 from twinform.passes.carriers.annotations import with_annotation
 from twinform.passes.carriers.carriers import bits_of_ours, is_carrier
@@ -49,7 +49,7 @@ class _AllTexts(TextList):
     def _add(self, kind: str, name: str, node: Node) -> None:
         """Add the text of a node, unless MJCF says all of it, and enter what it holds into the ledger."""
         self.file.part = node
-        whole = rewrite(self._without_kept(node), Node, wrap_repeated, having=OPAQUE)
+        whole = rewrite(self._without_kept(node), Node, wrap_repeated, having=PLAIN)
         left = remainder(whole, self.said, self.notes)
         if left is None and isinstance(node, World):  # what is a model has no world around it
             left = World.unchecked(name=node.name)
