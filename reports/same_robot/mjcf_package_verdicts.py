@@ -28,6 +28,7 @@ _OF_MASSES = (
 )
 _ACCOUNTS = (
     (r"the tree is another one|missing: \S+: '", "stray-text", ""),
+    (r"the tree is another one|missing: \S+/@\w+: ''", "blank-value", ""),
     (r"MuJoCo has more bodies", "mjcf-only", r"<(flex|flexcomp|composite)>.* is kept as it is"),
     (r"missing: /mujoco/body", "unknown-element", r"<body> is not an element of <mujoco>"),
     (r"the (mass|inertia|bias)|massless-link", "unreadable-mesh", _MASSLESS),
@@ -120,7 +121,8 @@ def _reason_of(cause: str, said: Collection[tuple[str, str]]) -> str:
     for pattern, rule, message in _ACCOUNTS:
         if re.match(pattern, cause):
             found = (text for name, text in said if name == rule and re.search(message, text))
-            return next((f"{rule}: {_QUOTED.sub('', text)}" for text in found), "")
+            if (first := next(found, None)) is not None:
+                return f"{rule}: {_QUOTED.sub('', first)}"
     return ""
 
 

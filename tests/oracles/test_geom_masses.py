@@ -136,10 +136,14 @@ def test_a_mesh_with_faces_that_are_not_flat(tmp_path: Path) -> None:
     _are_the_same(path, 1e-6)
 
 
+_SEVERAL = 10
+"""Of polygons with fewer corners there are more, since the search for ears ends in few of them."""
+
+
 def _polygons(draw: random.Random, corners: int) -> str:
     """A tetrahedron, and polygons around several places, some of them bent, concave or crossing themselves."""
     points, faces = ["v 0 0 0", "v 1 0 0", "v 0 1 0", "v 0 0 1"], ["f 1 3 2", "f 1 2 4", "f 1 4 3", "f 2 3 4"]
-    for number in range(12):
+    for number in range(48 if corners < _SEVERAL else 12):
         turns = sorted(draw.uniform(0, 2 * math.pi) for _ in range(corners))
         radii = [draw.uniform(0.2, 1.0) if number % 2 else 1.0 for _ in turns]
         around = [(radius * math.cos(turn), radius * math.sin(turn)) for radius, turn in zip(radii, turns, strict=True)]

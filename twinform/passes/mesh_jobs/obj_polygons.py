@@ -71,22 +71,23 @@ def _distance(one: _Point, other: _Point) -> float:
 
 
 def _ears(corners: _Corners) -> list[_Corners]:
-    """Cut off triangles that hold no other corner, until three are left, or no corner is one."""
+    """Cut off triangles that hold no other corner, until three corners are left, or none has one."""
     first, second = _plane([at for _, at in corners])
     left = [((word, at), (at[first], at[second])) for word, at in corners]
     found: list[_Corners] = []
-    start = tried = 0
-    while len(left) > _TRIANGLE and tried <= len(left):
+    start, tries, is_cut = 0, len(left), False
+    # An ear that is found at the last try is the last one, since the tries are counted anew only after this condition.
+    while len(left) > _TRIANGLE and tries > 0:
+        tries = len(left) if is_cut else tries - 1
         start %= len(left)
         turned = [*left[start:], *left[:start]]
         ear, others = turned[:_TRIANGLE], [at for _, at in turned[_TRIANGLE:]]
-        if _is_ear([at for _, at in ear], others):
+        is_cut = _is_ear([at for _, at in ear], others)
+        if is_cut:
             found.append([corner for corner, _ in ear])
             del left[(start + 1) % len(left)]
-            tried = 0
         else:
             start += 1
-            tried += 1
     return [*found, [corner for corner, _ in left]] if len(left) == _TRIANGLE else found
 
 
