@@ -61,9 +61,15 @@ def _without_made_root(model: Model) -> Model:
         return model
     if model.joints or link.visuals or link.collisions or link.sensors or link.lights:  # it is a link like others
         return model
-    name = link.name
-    frames = (frame.copy(attached_to=MODEL) if frame.attached_to == name else frame for frame in model.frames)
-    return model.copy(links=(), frames=tuple(frames), canonical_link=None)
+    return model.copy(links=(), frames=tuple(_on_model(each, link.name) for each in model.frames), canonical_link=None)
+
+
+def _on_model(frame: Frame, link: str) -> Frame:
+    """Return a frame that stands on the model, and no longer on a link that is in the place of the model."""
+    pose = frame.pose
+    if pose is not None and pose.relative_to == link:
+        pose = pose.copy(relative_to=MODEL)
+    return frame.copy(pose=pose, attached_to=MODEL if frame.attached_to == link else frame.attached_to)
 
 
 def _without_useless_mimics(model: Model) -> Model:
