@@ -15,6 +15,8 @@ OURS = f"{{{NAMESPACE}}}"
 Language = Literal["urdf", "sdf", "mjcf"]
 _LANGUAGES: Mapping[object, Language] = {"robot": "urdf", "sdf": "sdf", "mujoco": "mjcf"}
 
+_SITE = "site "
+
 
 class Geom(NamedTuple):
     """What tells a geom of MJCF from others: its body, its name, which may be made, and its shape."""
@@ -61,10 +63,21 @@ class EditedFile:
         return root
 
     @cached_property
+    def _texts(self) -> tuple[XmlElement, ...]:
+        """What texts of MJCF hold."""
+        texts = (each.get("data") or "" for each in self.root.iter("text") if is_text_of_ours(each))
+        return tuple(map(etree.fromstring, texts))
+
+    @cached_property
+    def sites_of_sensors(self) -> frozenset[str]:
+        """The sites of MJCF that stand for sensors: they are called after these and the models that they are in."""
+        parts = (line.strip() for text in self._texts for each in text.iter(f"{OURS}parts") for line in _lines(each))
+        return frozenset(each.removeprefix(_SITE) for each in parts if each.startswith(_SITE))
+
+    @cached_property
     def carried_shapes(self) -> frozenset[Geom]:
         """The visuals and collisions that only texts of MJCF have, since it has none like them."""
-        texts = (etree.fromstring(each.get("data") or "") for each in self.root.iter("text") if is_text_of_ours(each))
-        links = (link for text in texts for link in text.iter("link"))
+        links = (link for text in self._texts for link in text.iter("link"))
         found = ((link, each) for link in links for each in link.iterchildren("visual", "collision"))
         carried = {
             Geom(_name(link), _name(each), shape)
@@ -141,6 +154,10 @@ def _shapes_in(part: XmlElement) -> Iterator[str]:
     """Yield what the shape of a visual or collision is called in MJCF."""
     for shape in part.iterfind("geometry/*"):
         yield "hfield" if shape.tag == "heightmap" else str(shape.tag)
+
+
+def _lines(element: XmlElement) -> list[str]:
+    return (element.text or "").splitlines()
 
 
 def _name(element: XmlElement) -> str:
