@@ -39,6 +39,15 @@ def test_it_comes_home_from_mjcf(path: Path) -> None:
     assert audit(there.source, there.text, there.ledger).unaccounted == ()
 
 
+@pytest.mark.parametrize("name", ["fixed_joint_of_old_sdf.sdf", "computed_inertia.sdf", "repeated_poses.sdf"])
+def test_it_comes_home_by_way_of_mjcf_and_urdf(name: str) -> None:
+    path = CASES / "home_from_mjcf" / name
+    trip = RoundTrip.of_whole(path, twinform.load(path))
+    mjcf = twinform.convert(path, to="mjcf").text
+    urdf = twinform.convert(mjcf.encode(), to="urdf").text
+    assert list(trip.mismatches(trip.back(urdf))) == []
+
+
 @pytest.mark.parametrize("path", [*ROUND_TRIPS, *ACCEPTED], ids=_name)
 def test_an_audit_accounts_for_every_part_there_and_back(path: Path) -> None:
     own, other = ("sdf", "urdf") if path.suffix == ".sdf" else ("urdf", "sdf")

@@ -152,7 +152,16 @@ def _includes_to_expand(
 def has_mixed_words(loaded: LoadResult) -> bool:
     """Whether files have elements that their versions do not have, or frames where those have no meaning yet."""
     early = loaded.document is not None and has_early_frames(loaded.document)
-    return loaded.mixed or bool(mixed_words(loaded)) or early
+    return loaded.mixed or bool(mixed_words(loaded)) or early or _was_mixed(loaded)
+
+
+def _was_mixed(loaded: LoadResult) -> bool:
+    """Whether a file of MJCF was written of one with such elements."""
+    if loaded.tree is None or loaded.tree.tag != "mujoco":
+        return False
+    from twinform.compiler.input.mjcf.carried_texts import was_mixed  # noqa: PLC0415 - few files are MJCF
+
+    return was_mixed(loaded.tree)
 
 
 def mixed_words(loaded: LoadResult) -> frozenset[str]:

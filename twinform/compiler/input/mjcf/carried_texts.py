@@ -8,7 +8,9 @@ from twinform.diagnostics.rules import STALE_CARRIER
 from twinform.ir import Node, map_references
 from twinform.ir.frames import MODEL, WORLD
 from twinform.passes.carriers.absorb import CarrierError
-from twinform.passes.carriers.mjcf_texts import DOCUMENT, KINDS, parse_text_name, read_node
+from twinform.passes.carriers.annotations import FROM
+from twinform.passes.carriers.carriers import NAMESPACE
+from twinform.passes.carriers.mjcf_texts import DOCUMENT, KINDS, parse_data, parse_text_name, read_node, text_name
 from twinform.schemas import Context, XmlElement
 
 
@@ -35,6 +37,19 @@ def take_texts(root: XmlElement, context: Context) -> tuple[CarriedText, ...]:
         if parent is not None and not len(custom):
             parent.remove(custom)
     return tuple(found)
+
+
+def was_mixed(root: XmlElement) -> bool:
+    """Whether the file was written of an SDF that has syntax of newer versions, which only its carrier says."""
+    for text in root.iterfind("custom/text"):
+        if text.get("name") == text_name(DOCUMENT):
+            try:
+                origin = parse_data(text.get("data") or text.text or "").find(f"{{{NAMESPACE}}}{FROM}")
+            except CarrierError:  # which is reported where it is read
+                continue
+            if origin is not None and origin.get("mixed") == "true":
+                return True
+    return False
 
 
 def _read(text: XmlElement, context: Context) -> CarriedText | None:
