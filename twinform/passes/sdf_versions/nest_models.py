@@ -130,7 +130,7 @@ def nest(model: Model, sink: DiagnosticSink, among: frozenset[str] | None = None
     made = {
         each.name: _make_model(each, model, graph, sink, None if inside is None else frozenset(inside[each.name]))
         for each in inner.values()
-        if each.holds_anything
+        if each.holds_anything or (among is not None and each.own is not None)  # a static model may be empty
     }
     there = tuple(_add_found(nested, made.get(nested.name)) for nested in models)
     known = {each.name for each in models}
@@ -164,7 +164,7 @@ def _make_model(
         base = own.name
         pose = own.pose
         frame = (pose.relative_to if pose else None) or own.attached_to
-        if inner.holds(frame):
+        if inner.holds(frame) or not inner.holds_anything:
             pose = graph.pose(own.name, MODEL, kind="frame").to_pose()
         elif frame:
             pose = (pose or Pose.unchecked()).copy(relative_to=frame)
