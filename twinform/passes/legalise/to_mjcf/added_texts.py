@@ -82,6 +82,7 @@ class AddedTexts(TextList):
             for each in model.links
             if each.name not in hidden
         ]
+        links += [_without_place(each) for each in model.links if each.name in hidden]
         joints = [_without_hidden(each) if each.child in hidden else each for each in model.joints]
         joints = [self._as_mjcf_has_joint(each) for each in joints if not self._is_constraint(each)]
         models = FileModels(self.context)
@@ -286,6 +287,11 @@ def _with_names_of_sdf(left: Node) -> Node:
 
     visuals, collisions = tuple(map(named, left.visuals)), tuple(map(named, left.collisions))
     return replace_fields(left, visuals=visuals, collisions=collisions)
+
+
+def _without_place(link: Link) -> Link:
+    """A link between joints of one body as it is read, without the token that it weighs: it may have flags."""
+    return without_parts(link.copy(pose=None, inertial=None), is_ours)
 
 
 def _without_hidden(joint: Joint) -> Joint:
