@@ -25,6 +25,9 @@ _TYPES = {
 }
 """The types of sensors that readings at a site are read as."""
 _CLOSE = 1e-9
+_PRINTED = 1e-5
+"""How far the reach of a ray may be from its cutoff, as a part of it: it is read with six digits."""
+_OF_RAYS = frozenset({"lidar", "scan", "horizontal", "samples", "min_angle", "max_angle", "range", "min", "max"})
 _Z_TO_X = Transform.from_pose(Pose.unchecked(quat_xyzw=(0.0, -math.sqrt(0.5), 0.0, math.sqrt(0.5))))
 """What turns x, along which a lidar looks, onto z, along which a rangefinder does."""
 _FARTHEST = 100.0
@@ -87,15 +90,23 @@ def _measures(sensor: Sensor, body: Body, kept: list[Element]) -> bool:
         case "contact":
             return not set(_touching(body)).isdisjoint(_collisions(sensor))
         case "gpu_lidar":
-            lidar = untyped(sensor, "lidar")
             farthest = float(kept[0].get("cutoff") or 0.0) or _FARTHEST
-            samples = child_number(lidar, "scan", "horizontal", "samples", default=1.0)
-            return samples == 1.0 and math.isclose(child_number(lidar, "range", "max", default=0.0), farthest)
+            return _is_one_ray(untyped(sensor, "lidar"), farthest)
         case "force_torque":
             words = [child_text(untyped(sensor, "force_torque"), each) for each in ("frame", "measure_direction")]
             return words == ["sensor", "parent_to_child"]
         case _:
             return True
+
+
+def _is_one_ray(lidar: Element | None, farthest: float) -> bool:
+    """Whether a lidar is what a rangefinder is read as: a ray straight ahead, with nothing else that could be said."""
+    if lidar is None or not {each.name for each in lidar.walk()} <= _OF_RAYS:
+        return False
+    samples = child_number(lidar, "scan", "horizontal", "samples", default=1.0)
+    angles = [child_number(lidar, "scan", "horizontal", each, default=0.0) for each in ("min_angle", "max_angle")]
+    nearest, reach = (child_number(lidar, "range", each, default=0.0) for each in ("min", "max"))
+    return (samples, *angles, nearest) == (1.0, 0.0, 0.0, 0.0) and math.isclose(reach, farthest, rel_tol=_PRINTED)
 
 
 def _are_written(context: MjcfContext, kept: list[Element]) -> bool:
