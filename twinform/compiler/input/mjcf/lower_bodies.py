@@ -31,7 +31,7 @@ JOINTS = ("joint", "freejoint")
 class TreeParts(NamedTuple):
     """What the bodies of a model are in SDF.
 
-    `masks` are those of the geoms of each link. `links_of` has the
+    `masks` are those of the collisions of each link. `links_of` has the
     names of links by those of bodies, `sites` the link and the frame of each named site.
     """
 
@@ -135,7 +135,7 @@ class TreeLowering:
         pose = self._pose(here)
         inertial, weightless = inertial_of(self._inertias[body], self._scale, self._keeper)
         shapes = self._geoms.lower(body, name)
-        self.parts.masks.append([Bits.of(geom) for geom in body.all_of("geom")])
+        self.parts.masks.append([*shapes.bits])
         gravity = None
         if body.peek_numbers("gravcomp") == (1.0,):
             body.take("gravcomp")

@@ -33,11 +33,12 @@ _SHOWN = 3
 
 
 class LinkShapes(NamedTuple):
-    """The shapes of a link, and what of its geoms has no shape in SDF."""
+    """The shapes of a link, what of its geoms has no shape in SDF, and the bits of those that are collisions."""
 
     collisions: tuple[Collision, ...] = ()
     visuals: tuple[Visual, ...] = ()
     rest: tuple[Opaque, ...] = ()
+    bits: tuple[Bits, ...] = ()
 
 
 class _Named(NamedTuple):
@@ -82,13 +83,14 @@ class GeomLowering(NamedTuple):
         collisions: list[Collision] = []
         visuals: list[Visual] = []
         rest: list[Element] = []
+        bits: list[Bits] = []
         for geom in geoms:
             placed = lower_shape(geom, self.assets) or self._fitted(geom)
             if placed is None:
                 why = f"SDF has no such shape ({geom.peek('type') or 'sphere'} without a file or size)"
                 rest.append(self.keeper.whole(geom, why=why))
                 continue
-            touches = Bits.of(geom).touches
+            touches = (own := Bits.of(geom)).touches
             unnamed = f"{link}_{'collision' if touches else 'visual'}"
             written = geom.take("name") or ""
             name = written if written in names else reserve_name(safe_name(written or unnamed), names, numbers)
@@ -97,9 +99,10 @@ class GeomLowering(NamedTuple):
             if is_shown:
                 visuals.append(self._visual(one))
             if touches:
+                bits.append(own)
                 collisions.append(self._collision(one))
         kept = (holder(*rest),) if rest else ()
-        return LinkShapes(tuple(collisions), tuple(visuals), kept)
+        return LinkShapes(tuple(collisions), tuple(visuals), kept, tuple(bits))
 
     def _fitted(self, geom: Piece) -> PlacedShape | None:
         found = self.solids.fitted(geom)
