@@ -32,7 +32,7 @@ from twinform.compiler.input.mjcf.restore_sensors import (
     without_lights,
     without_parts_of_sensors,
 )
-from twinform.compiler.input.mjcf.spellings import Spellings
+from twinform.compiler.input.mjcf.spellings import Spellings, floating_from_world
 from twinform.compiler.input.mjcf.usual_remainders import without_assets, without_named
 from twinform.compiler.input.mjcf.written_models import without_stand_ins
 from twinform.diagnostics import DiagnosticSink
@@ -247,6 +247,8 @@ class _Merged:
             return (is_static and joint.name in made - carried) or (is_robot and is_synthesized(joint))
 
         self.holds = tuple(each for each in model.joints if is_robot and is_needless(each))
+        if is_robot and not came_from(model, Format.SDF) and not any(each.parent == WORLD for each in model.joints):
+            return _let_float(model)
         return model.copy(joints=tuple(each for each in model.joints if not is_needless(each)))
 
     def _restored(self, model: Model) -> Model:
@@ -365,6 +367,14 @@ class _Merged:
 
     def _stale(self, message: str, node: Node) -> None:
         report_stale(self.sink, message, node.source)
+
+
+def _let_float(model: Model) -> Model:
+    """The model whose only root hangs from a floating joint: a root of URDF is held, and somebody has set it free."""
+    roots = _roots(model)
+    names = {each.name for part in (model.links, model.joints, model.frames) for each in part}
+    links = (floating_from_world(each, names) if each.name in roots else each for each in model.links)
+    return model.copy(links=tuple(links))
 
 
 def _roots(model: Model) -> set[str]:

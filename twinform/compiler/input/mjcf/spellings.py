@@ -30,11 +30,12 @@ from twinform.ir import (
     Surface,
     Visual,
 )
+from twinform.ir.frames import WORLD
 from twinform.ir.node import Vector3
 from twinform.ir.solids import tensor, turned
 from twinform.ir.transform import Transform
 from twinform.passes.carriers.absorb import CarrierError, absorb
-from twinform.passes.carriers.annotations import SAME_GEOM, find_annotation, without_annotation
+from twinform.passes.carriers.annotations import SAME_GEOM, annotation, find_annotation, without_annotation
 from twinform.passes.carriers.carriers import to_element
 from twinform.passes.carriers.mjcf_texts import (
     AXES,
@@ -58,6 +59,7 @@ from twinform.passes.legalise.to_mjcf.inertials import weight_parts
 from twinform.passes.legalise.to_mjcf.kept_mjcf import KEPT, kept_elements
 from twinform.passes.legalise.to_mjcf.said_parts import child_number, untyped, without_elements
 from twinform.passes.legalise.to_sdf.joint_types import FLOATING
+from twinform.passes.shared.nodes import unique_name
 from twinform.passes.shared.poses import read_vector
 from twinform.schemas import XmlElement, format_value
 
@@ -197,6 +199,15 @@ def _with_floating(node: Link, partial: Link) -> tuple[Link, Link]:
     named = floating.copy(attributes=(("joint", free.get("name") or ""), *others))
     parts = tuple(part.copy(element=named) if part.element is floating else part for part in partial.opaque)
     return node.copy(opaque=_without_name(node.opaque, free)), partial.copy(opaque=parts)
+
+
+def floating_from_world(link: Link, names: Collection[str]) -> Link:
+    """A free link with an annotation of a floating joint, which URDF needs: it is called as the joint in the file."""
+    made = annotation(
+        FLOATING, attributes={"joint": unique_name(f"{link.name}_floating_joint", names), "parent": WORLD}
+    )
+    link, mark = _with_floating(link, Link.unchecked(name=link.name, opaque=(made,)))
+    return link.copy(opaque=(*link.opaque, *mark.opaque))
 
 
 def _without_name(parts: tuple[Opaque, ...], free: Element) -> tuple[Opaque, ...]:
