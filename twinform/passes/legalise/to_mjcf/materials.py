@@ -125,8 +125,9 @@ def _material(
     """The name of the material of a look; visuals that look alike share one."""
     key = ("material", found.rgba, found.material, tuple(textures))
     if key not in context.files:
-        if not context.is_of_mjcf:  # then what is kept was put into the file by somebody, and is about no visual
-            context.names.setdefault("material", set()).update(context.colors)
+        # What is kept of a file that was written here was put into it by somebody, and is about no visual.
+        kept = context.materials if context.is_of_mjcf else context.colors
+        context.names.setdefault("material", set()).update(kept)
         name = context.name_in(body, "material", visual.name or "material", visual.location)
         asset = _asset([("name", name), ("rgba", found.rgba), *found.material], textures)
         context.add("asset", asset.copy(source=visual.source))
