@@ -247,7 +247,9 @@ class _Merged:
             return (is_static and joint.name in made - carried) or (is_robot and is_synthesized(joint))
 
         self.holds = tuple(each for each in model.joints if is_robot and is_needless(each))
-        if is_robot and not came_from(model, Format.SDF) and not any(each.parent == WORLD for each in model.joints):
+        # What was held by the world alone was so by a joint that was made; what came by way of SDF floats there too.
+        was_held = is_robot and any(each.type == "fixed" and is_synthesized(each) for each in self.joints)
+        if was_held and not any(each.parent == WORLD for each in model.joints):
             return _let_float(model)
         return model.copy(joints=tuple(each for each in model.joints if not is_needless(each)))
 
