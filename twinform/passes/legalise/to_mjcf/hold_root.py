@@ -39,7 +39,7 @@ class HoldRoot(ModelPass):
         if len(held) == 1 and not may_float:
             joints = (without_synthesized(joint) if joint is held[0] else joint for joint in model.joints)
             return model.copy(joints=tuple(joints))
-        if root is None or may_float or held:
+        if root is None or root.name == WORLD or may_float or held:
             return model
         taken = {node.name for node in (*model.links, *model.joints, *model.frames)}
         name = unique_name(f"{root.name}_on_world", taken)
