@@ -14,7 +14,7 @@ from twinform.compiler.input.mjcf.lower_inertials import with_zeros
 from twinform.compiler.input.mjcf.merge_parts import merge_parts
 from twinform.compiler.input.mjcf.models_of_world import (
     is_held,
-    is_static,
+    is_static_frame,
     with_joints_between,
     with_models,
     with_nested,
@@ -184,11 +184,12 @@ class _Merged:
         known = {each.name for each in between}
         self.links = [each for each in self.links if each.name not in whole or each.name not in known]
         holds = is_held(model)  # as the file has it; a joint that a carrier has of a static model cannot move
-        joints = without_stand_ins(model.copy(joints=joints), self._of_static_models(partial)).joints
         links = self.merging.merge_all(between, tuple(without_annotation(each, WRITTEN) for each in self.links))
         ends = {WORLD, *(each.name for each in links), *(each.name for each in (*model.frames, *self.frames))}
+        still = tuple(without_moved_statics(self._held_by(ends), model, self.sink))
+        static = self._of_static_models(still, is_static=holds and bool(partial and partial.static))
+        joints = without_stand_ins(model.copy(joints=joints), static).joints
         joints = self.merging.merge_all(joints, tuple(self._typed(joints, ends)))
-        still = without_moved_statics(self._held_by(ends), model, self.sink)
         kept = tuple(without_annotation(each, WRITTEN) for each in still)
         frames = self.merging.merge_all(model.frames, kept)
         model = model.copy(links=links, joints=joints, frames=frames)
@@ -201,11 +202,14 @@ class _Merged:
         partial = partial.copy(name=self._name(partial))
         return self._let_go(self.merging.merge(model, partial), made, is_static=is_static)
 
-    def _of_static_models(self, partial: Model | None) -> list[Joint]:
-        """The joints of static models, as carriers tell: there they cannot move, and are fixed in the file."""
-        if partial is not None and partial.static:
+    def _of_static_models(self, frames: Iterable[Frame], *, is_static: bool) -> list[Joint]:
+        """The joints of static models, or of all: there they cannot move, and are fixed in the file.
+
+        `frames` stand for models in the model.
+        """
+        if is_static:
             return self.joints
-        static = tuple(each.name + SCOPE for each in self.frames if is_static(each)) or "\0"
+        static = tuple(each.name + SCOPE for each in frames if is_static_frame(each)) or "\0"
         return [each for each in self.joints if (each.child or "").startswith(static)]
 
     def _name(self, partial: Model | World) -> str:

@@ -81,7 +81,7 @@ def without_moved_statics(frames: Iterable[Frame], model: Model, sink: Diagnosti
             inside.setdefault(scope, []).append(link.name)
     for frame in frames:
         own = inside.get(frame.name, ())
-        if is_static(frame) and not all(_is_fixed_in(frame.name, held.get(each, ())) for each in own):
+        if is_static_frame(frame) and not all(_is_fixed_in(frame.name, held.get(each, ())) for each in own):
             report_stale(sink, f"model {frame.name!r} is not static any more: it can move", frame.source)
             nested = find_annotation(frame, NESTED) or Element.unchecked(name=NESTED)
             rest = tuple(each for each in nested.children if each.name != "static")
@@ -94,7 +94,7 @@ def _is_fixed_in(model: str, parents: Iterable[str]) -> bool:
     return any(parent == WORLD or parent.startswith(model + SCOPE) for parent in parents)
 
 
-def is_static(frame: Frame) -> bool:
+def is_static_frame(frame: Frame) -> bool:
     """Whether the model that a frame stands for is static."""
     nested = find_annotation(frame, NESTED)
     found = nested.find("static") if nested is not None else None

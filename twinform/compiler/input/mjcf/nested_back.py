@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 
-from twinform.compiler.input.mjcf.models_of_world import is_static
+from twinform.compiler.input.mjcf.models_of_world import is_static_frame
 from twinform.compiler.input.mjcf.renamed_parts import name_in_file
 from twinform.diagnostics import DiagnosticSink
 from twinform.ir import Element, Format, Frame, Joint, Model
@@ -24,7 +24,7 @@ def nested_back(model: Model, frames: Sequence[Frame], bodies: Mapping[str, str]
         for part in _parts(frame):
             names |= _name(part, f"{frame.name}{SCOPE}", model, bodies)
     placed = tuple(_placed(each, bodies, model) for each in frames)
-    static = tuple(f"{each.name}{SCOPE}" for each in frames if is_static(each))
+    static = tuple(f"{each.name}{SCOPE}" for each in frames if is_static_frame(each))
     joints = tuple(each for each in model.joints if not _only_holds(each, static, names))
     whole = renamed(model.copy(joints=joints, frames=(*model.frames, *placed)), names, Format.SDF)
     for step in (NameScopes.unchecked(), RestoreNested.unchecked()):
