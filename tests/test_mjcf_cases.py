@@ -54,6 +54,23 @@ def test_every_part_is_in_the_mjcf_or_in_the_ledger(path: Path) -> None:
 _MJCF = sorted([*(_CASES.parent / "mjcf").glob("*.mjcf"), *_CASES.glob("*.expected.xml")])
 
 
+_WITH_PREFIXES = frozenset({"error_prefixes.mjcf", "prefixes.mjcf"})
+"""Their namespaces have made-up prefixes in JSON."""
+
+
+@pytest.mark.parametrize("to", ["sdf", "mjcf"])
+@pytest.mark.parametrize(
+    "path", [each for each in _MJCF if each.name not in _WITH_PREFIXES], ids=lambda path: path.name
+)
+def test_a_file_of_mjcf_comes_back_from_json_as_from_itself(path: Path, to: Literal["sdf", "mjcf"]) -> None:
+    try:
+        expected = twinform.convert(path, to=to, passes="check-inertia", comments=False).text
+    except twinform.CompileError:
+        pytest.skip("refused")
+    as_json = twinform.convert(path, to="json").text
+    assert twinform.convert(as_json.encode(), to=to).text == expected
+
+
 _FOLLOWED = frozenset({
     "actuators.mjcf", "attached_twice.mjcf", "chains.expected.xml", "includes.mjcf", "looks.expected.xml",
     "servos_of_classes.mjcf",

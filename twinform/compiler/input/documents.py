@@ -1,6 +1,7 @@
 """Checks documents in memory as the files that they would be, which have to say everything that they do."""
 
 import json
+from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any, NamedTuple, cast
 
@@ -146,12 +147,23 @@ def _differences(mine: Any, theirs: Any, path: JsonPath) -> Iterator[Missed]:
             elif name not in _ASIDE:
                 yield from _differences(mine.get(name, _NOWHERE), theirs.get(name, _NOWHERE), (*path, name))
     elif is_array(mine) and is_array(theirs) and len(mine) == len(theirs):
-        for index, (one, other) in enumerate(zip(mine, theirs, strict=True)):
+        for index, (one, other) in enumerate(zip(mine, _in_order_of(mine, theirs), strict=True)):
             yield from _differences(one, other, (*path, index))
     elif mine is _NOWHERE and theirs == _ZEROS and path[-1] in _PARTS_OF_POSES:
         return  # SDF has both parts in one text, so a document that comes from URDF, or is made by hand, may lack one
     elif mine != theirs or isinstance(mine, bool) is not isinstance(theirs, bool):  # True == 1
         yield Missed(path, mine, theirs)
+
+
+def _in_order_of(mine: list[Any], theirs: list[Any]) -> list[Any]:
+    """Parts in the order of others with the same names: a file has all of them in the order of their lines."""
+    names, others = ([each.get("name") if is_object(each) else None for each in parts] for parts in (mine, theirs))
+    if names == others or Counter(names) != Counter(others):
+        return theirs
+    waiting: dict[Any, list[Any]] = {name: [] for name in names}
+    for name, part in zip(reversed(others), reversed(theirs), strict=True):
+        waiting[name].append(part)
+    return [waiting[name].pop() for name in names]
 
 
 def _parts(opaque: Iterable[Data]) -> dict[str, tuple[list[Any], list[Any], list[str]]]:
