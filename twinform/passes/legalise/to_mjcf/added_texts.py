@@ -290,8 +290,11 @@ def _with_names_of_sdf(left: Node) -> Node:
 
 
 def _without_place(link: Link) -> Link:
-    """A link between joints of one body as it is read, without the token that it weighs: it may have flags."""
-    return without_parts(link.copy(pose=None, inertial=None), is_ours)
+    """A link between joints of one body as it is read, without the token that it weighs: it may have flags.
+
+    Without shapes it touches nothing, whatever it says of that.
+    """
+    return without_parts(link.copy(pose=None, inertial=None, self_collide=None), is_ours)
 
 
 def _without_hidden(joint: Joint) -> Joint:
