@@ -50,7 +50,7 @@ from twinform.passes.carriers.annotations import (
     without_annotation,
     without_synthesized,
 )
-from twinform.passes.carriers.carriers import NAMESPACE, bits_of_ours, is_carrier
+from twinform.passes.carriers.carriers import NAMESPACE, bits_of_ours
 from twinform.passes.carriers.carriers import PREFIX as TF
 from twinform.passes.carriers.mjcf_texts import DOCUMENT, PREFIXES, SEVERAL
 from twinform.passes.carriers.old_names import source_name
@@ -251,9 +251,10 @@ class _Merged:
             return (is_static and joint.name in made - carried) or (is_robot and is_synthesized(joint))
 
         self.holds = tuple(each for each in model.joints if is_robot and is_needless(each))
-        # What was held by the world alone was so by a joint that was made; what came by way of SDF floats there too.
-        was_held = is_robot and any(each.type == "fixed" and is_synthesized(each) for each in self.joints)
-        if was_held and not any(each.parent == WORLD for each in model.joints):
+        # A root was held by a joint of the file, or by one that was made; what came by way of SDF floats there too.
+        roots = _roots(model)
+        holds = (each for each in self.joints if each.type == "fixed" and (is_synthesized(each) or each.child in roots))
+        if is_robot and any(holds) and not any(each.parent == WORLD for each in model.joints):
             return _let_float(model)
         return model.copy(joints=tuple(each for each in model.joints if not is_needless(each)))
 
@@ -329,10 +330,7 @@ class _Merged:
         kept = tuple(part for part in model.opaque if part.element is not None and part.element.name == KEPT)
         lowered = lowered.copy(opaque=(*lowered.opaque, *kept))
         lowered, partial = restored_settings(lowered, partial, self.root)
-        # What only MJCF says about the trees of bodies, such as a sensor, is about parts of several models.
-        kept = tuple(part for part in model.opaque if is_carrier(part, "mjcf"))
-        opaque = (*lowered.opaque, *kept)
-        world = lowered.copy(models=model.models, joints=model.joints, frames=model.frames, opaque=opaque)
+        world = lowered.copy(models=model.models, joints=model.joints, frames=model.frames)
         world = self.merging.merge(world, partial.copy(name=self._name(partial)))
         return world.copy(lights=tuple(without_annotation(each, POSE) for each in world.lights))
 
