@@ -141,15 +141,14 @@ class FileLowering:
         name = found.name or (file_name if is_of_file else first.name)
         given = found.name or reserve_name(safe_name(name or UNNAMED_MODEL), taken, self.numbers)
         is_static = lowering.is_static
-        links, joints, frames = parts.in_file_order()
         return Model.unchecked(
             name=given,
             pose=pose_of(first.transform() if found.at is None else found.at, source=first.source),
             static=True if is_static else None,
             self_collide=None if is_static else touches_itself(parts.masks),
-            links=links,
-            joints=joints,
-            frames=frames,
+            links=tuple(parts.links),
+            joints=tuple(parts.joints),
+            frames=tuple(parts.frames),
             opaque=name_mark(name, given),
             source=first.source,
         )

@@ -24,7 +24,6 @@ from twinform.ir.transform import Transform
 from twinform.passes.carriers.annotations import MADE_NAME, annotate_synthesized, with_annotation
 from twinform.passes.carriers.token_mass import TOKEN
 from twinform.passes.legalise.changed_names import fixed_joint_name
-from twinform.schemas import in_order
 
 JOINTS = ("joint", "freejoint")
 
@@ -42,16 +41,6 @@ class TreeParts(NamedTuple):
     masks: list[list[Bits]]
     links_of: dict[str, str]
     sites: dict[str, tuple[str, str]]
-
-    def in_file_order(self) -> tuple[tuple[Link, ...], tuple[Joint, ...], tuple[Frame, ...]]:
-        """The links, joints and frames in the order of their lines: a body may have bodies before its own parts."""
-        parts = (*self.links, *self.joints, *self.frames)
-        ordered = in_order([(each, None) for each in parts])
-        return (
-            tuple(each for each, _ in ordered if isinstance(each, Link)),
-            tuple(each for each, _ in ordered if isinstance(each, Joint)),
-            tuple(each for each, _ in ordered if isinstance(each, Frame)),
-        )
 
 
 class _Placed(NamedTuple):
