@@ -9,7 +9,7 @@ from twinform.passes.carriers.annotations import MADE_NAME, find_annotation, is_
 from twinform.passes.carriers.mjcf_texts import LOOP
 from twinform.passes.carriers.old_names import NAME, annotated_name, old_name
 from twinform.passes.carriers.partial_nodes import written_name, written_names
-from twinform.passes.legalise.changed_names import Names, renamed
+from twinform.passes.legalise.changed_names import Names, fixed_joint_name, renamed
 from twinform.passes.shared.nodes import unique_name
 from twinform.passes.shared.poses import NESTED
 from twinform.passes.structure.rename_parts import Part
@@ -136,9 +136,9 @@ def _name_fixed(model: Model, partials: Sequence[Joint], names: Names) -> None:
     tree = (each for each in partials if find_annotation(each, LOOP) is None)
     fixed = {each.child: each.name for each in tree if each.type == "fixed"}
     written = {each.name: name_in_file(each) for each in model.links}
-    for joint in model.joints:
+    # A weld may hold the same link as the body around that does, and closes a loop.
+    for joint in sorted(model.joints, key=lambda each: not each.name.startswith(fixed_joint_name(each.child or ""))):
         link = joint.child or ""
         child = names.get(("link", link)) or written.get(link)
-        old = fixed.get(child)
-        if joint.type == "fixed" and old is not None and ("joint", joint.name) not in names:
-            names["joint", joint.name] = old
+        if joint.type == "fixed" and child in fixed and ("joint", joint.name) not in names:
+            names["joint", joint.name] = fixed.pop(child)
