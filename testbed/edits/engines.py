@@ -14,6 +14,7 @@ from typing import Any
 from lxml import etree
 
 from testbed.edits.edited_file import OURS, EditedFile, end, geom_in
+from twinform.schemas import XmlElement
 
 _DIGITS = 6
 _SPRINGS = ("stiffness of joint ", "spring of joint ")
@@ -106,6 +107,8 @@ def _of_urdf(file: EditedFile, result: str) -> Iterator[str]:
     from testbed.mjcf.compiled import UnreadableError, compile_mjcf, compile_urdf, without_meshes  # noqa: PLC0415
     from testbed.mjcf.differences import differences  # noqa: PLC0415
 
+    if _is_static(file.root):
+        raise NotReadError("MuJoCo, which does not know what is static")
     try:
         source = compile_urdf(_without_meshes_of_urdf(file), absent_is_nothing=True)
     except UnreadableError as error:
@@ -117,6 +120,12 @@ def _of_urdf(file: EditedFile, result: str) -> Iterator[str]:
         return
     # URDF has springs in <gazebo> alone, which MuJoCo does not read
     yield from (each for each in differences(source, made) if not each.startswith(_SPRINGS))
+
+
+def _is_static(robot: XmlElement) -> bool:
+    """Whether a URDF is static in Gazebo; of one that was read of MJCF that only says that nothing moves."""
+    found = (each.text or "" for each in robot.iterfind("gazebo/static"))
+    return robot.find(f"{OURS}mjcf") is None and any(each.strip() in {"true", "1"} for each in found)
 
 
 def _of_sdf(file: EditedFile, result: str) -> Iterator[str]:
@@ -131,6 +140,8 @@ def _of_sdf(file: EditedFile, result: str) -> Iterator[str]:
         return
     if find_spec("pydrake") is None:
         raise NotReadError("Drake, which is not here")
+    if len([*file.root.iterfind("world/model"), *file.root.iterfind("model")]) > 1:
+        raise NotReadError("Drake, which is asked for the first model")
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "edited.sdf"
         path.write_bytes(file.text)
