@@ -225,6 +225,9 @@ def _geom_ins(model: Any, pair: tuple[int, int]) -> tuple[str, ...]:
 def _touching(model: Any, geoms: Iterable[int]) -> Iterator[tuple[int, int]]:
     """Yield the pairs of geoms that may touch, by their bits, by what is excluded and by what holds what."""
     excluded = {(int(each) >> 16, int(each) & 0xFFFF) for each in model.exclude_signature}
+    joined = [
+        {int(model.eq_obj1id[each]), int(model.eq_obj2id[each])} for each in range(model.neq) if _joins(model, each)
+    ]
     types, affinities, bodies = model.geom_contype.tolist(), model.geom_conaffinity.tolist(), model.geom_bodyid.tolist()
     for first, second in combinations(geoms, 2):
         if not types[first] & affinities[second] and not types[second] & affinities[first]:
@@ -234,9 +237,14 @@ def _touching(model: Any, geoms: Iterable[int]) -> Iterator[tuple[int, int]]:
             continue
         held = [_held_as_one(model, each) for each in (one, other)]
         above = [_held_as_one(model, int(model.body_parentid[each])) for each in held]
-        # URDF and SDF say nothing of contacts between two links that a joint connects
-        if 0 in {one, other} or (held[0] != above[1] and held[1] != above[0]):
+        # URDF and SDF say nothing of contacts between two links that a joint connects, one that closes a loop too
+        if 0 in {one, other} or (held[0] != above[1] and held[1] != above[0] and {one, other} not in joined):
             yield first, second
+
+
+def _joins(model: Any, equality: int) -> bool:
+    """Whether an equality holds two bodies to each other: `connect` or `weld`."""
+    return int(model.eq_type[equality]) in {0, 1} and int(model.eq_objtype[equality]) == 1
 
 
 def _held_as_one(model: Any, body: int) -> int:
