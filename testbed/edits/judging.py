@@ -7,13 +7,14 @@ edited file's robot again. Where either file is MJCF, engines say so too, which 
 `engines.py`. What already differs before the edit is not the edit's doing.
 """
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
+from types import MappingProxyType
 
 from lxml import etree
 
-from testbed.edits.edit import Edit
+from testbed.edits.edit import Edit, Rename
 from testbed.edits.edited_file import EditedFile, Language, without_scenery
 from testbed.edits.engines import NotReadError, differences_in_engines, is_refused_by_mujoco
 from testbed.edits.mistakes import KIND as MISTAKE
@@ -98,9 +99,17 @@ def unedited(text: bytes, to: Language | None = None) -> Converted:
 
 
 def judge(
-    before: Converted, edited: bytes, *, must_be_refused: bool = False, plainly: Plainly = Plainly.ALL
+    before: Converted,
+    edited: bytes,
+    *,
+    must_be_refused: bool = False,
+    plainly: Plainly = Plainly.ALL,
+    names: Mapping[str, str] = MappingProxyType({}),
 ) -> Verdict:
-    """What becomes of an edited file; no exception comes out of it."""
+    """What becomes of an edited file; no exception comes out of it.
+
+    `names` are those that parts had before the edit, by those that they have now.
+    """
     try:
         made = convert(edited, to=before.to)
     except CompileError as error:
@@ -124,7 +133,7 @@ def judge(
     except Exception as error:  # noqa: BLE001 - a result that cannot be read is no result
         return Verdict(fault, (f"not compared: {type(error).__name__}: {error}",), warned, made.text)
     compared, when_back = (_about_what_is_there(each, edited) for each in (compared, when_back))
-    found = [each.message for each in compared if _key(each) not in before.differing]
+    found = [each.message for each in compared if _before(each, names) not in before.differing]
     news_plainly = [each for each in read if plain_key(each) not in before.differing_plainly]
     reasons = [explained(each, plainly, file) for each in news_plainly]
     differed = "an engine sees a difference before any edit" if before.differing_in_engines else ""
@@ -133,7 +142,8 @@ def judge(
     why = differed or before.not_read or not_read or carried
     if not why:
         found += [f"in an engine: {each}" for each in in_engines]
-    found += [f"when it is back: {each.message}" for each in when_back if _key(each) not in before.differing_when_back]
+    known_back = before.differing_when_back
+    found += [f"when it is back: {each.message}" for each in when_back if _before(each, names) not in known_back]
     found += [f"plainly: {each.message}" for each, reason in zip(news_plainly, reasons, strict=True) if reason is None]
     outcome = fault if found else Outcome.WARNED if news else Outcome.SAME
     known = {reason for reason in (*reasons, why) if reason}
@@ -144,7 +154,9 @@ def judge_edits(before: Converted, edits: Iterable[Edit], edited: bytes) -> Verd
     """What becomes of a file after these edits, which ask for more or less by their kinds."""
     every = tuple(edits)
     must = any(each.kind == MISTAKE for each in every)
-    return judge(before, edited, must_be_refused=must, plainly=_plainly(every))
+    renames = [each for edit in every for each in edit.operations if isinstance(each, Rename)]
+    names = {each.new: each.old for each in renames}
+    return judge(before, edited, must_be_refused=must, plainly=_plainly(every), names=names)
 
 
 def edits_carriers(edits: Iterable[Edit]) -> bool:
@@ -212,6 +224,15 @@ def _refused(error: CompileError) -> Verdict:
 
 def _key(found: Difference) -> Key:
     return found.group, found.name, found.aspect
+
+
+def _before(found: Difference, names: Mapping[str, str]) -> Key:
+    """What differs, by the names that its parts had before the edit."""
+    name, aspect = found.name, found.aspect
+    for new, old in names.items():
+        name = old if name == new else name
+        aspect = aspect.replace(f"'{new}'", f"'{old}'") if aspect else aspect
+    return found.group, name, aspect
 
 
 def _warnings(diagnostics: Iterable[Diagnostic]) -> frozenset[str]:
