@@ -139,8 +139,8 @@ def _without_hollow(model: Model, sink: DiagnosticSink) -> Model:
     for frame in model.frames:
         found = find_annotation(frame, NESTED)
         # Names tell what is in a nested model. After an edit that renamed all its parts an empty
-        # model would be left, which SDF refuses unless it is static; one that was empty before is.
-        if found is None or frame.name in filled or _was_empty(frame):
+        # model would be left, which SDF refuses unless it is static.
+        if found is None or frame.name in filled or _was_empty(frame, found):
             frames.append(frame)
             continue
         message = f"nothing is called {frame.name + SCOPE!r} and more, so that {frame.name!r} is a frame and no model"
@@ -149,9 +149,11 @@ def _without_hollow(model: Model, sink: DiagnosticSink) -> Model:
     return model.copy(frames=tuple(frames))
 
 
-def _was_empty(frame: Frame) -> bool:
-    """Whether a model had no link of its own, to which its frame could be attached."""
-    return not (frame.attached_to or "").startswith(frame.name + SCOPE)
+def _was_empty(frame: Frame, found: Element) -> bool:
+    """Whether a static model had no link of its own to which its frame could be attached."""
+    static = found.find("static")
+    is_static = static is not None and static.text in {"true", "1"}
+    return is_static and not (frame.attached_to or "").startswith(frame.name + SCOPE)
 
 
 def _scopes_with_any(names: Iterable[str]) -> frozenset[str]:
