@@ -213,12 +213,12 @@ def _of_contacts(source: Any, made: Any, matched: Iterable[tuple[int, int]]) -> 
     of_other = {(min(pair), max(pair)) for pair in touching}
     if of_one != of_other:
         before, after = (
-            [_geom_ins(source, pair) for pair in sorted(some)[:2]] for some in (of_one - of_other, of_other - of_one)
+            [_geom_names(source, pair) for pair in sorted(some)[:2]] for some in (of_one - of_other, of_other - of_one)
         )
         yield f"contacts: only before {before}, only after {after}"
 
 
-def _geom_ins(model: Any, pair: tuple[int, int]) -> tuple[str, ...]:
+def _geom_names(model: Any, pair: tuple[int, int]) -> tuple[str, ...]:
     return tuple(model.geom(each).name or f"geom {each}" for each in pair)
 
 
