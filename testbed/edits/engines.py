@@ -107,7 +107,7 @@ def _of_urdf(file: EditedFile, result: str) -> Iterator[str]:
     from testbed.mjcf.compiled import UnreadableError, compile_mjcf, compile_urdf, without_meshes  # noqa: PLC0415
     from testbed.mjcf.differences import differences  # noqa: PLC0415
 
-    if _is_static(file.root):
+    if is_static(file.root):
         raise NotReadError("MuJoCo, which does not know what is static")
     try:
         source = compile_urdf(_without_meshes_of_urdf(file), absent_is_nothing=True)
@@ -122,7 +122,7 @@ def _of_urdf(file: EditedFile, result: str) -> Iterator[str]:
     yield from (each for each in differences(source, made) if not each.startswith(_SPRINGS))
 
 
-def _is_static(robot: XmlElement) -> bool:
+def is_static(robot: XmlElement) -> bool:
     """Whether a URDF is static in Gazebo; of one that was read of MJCF that only says that nothing moves."""
     found = (each.text or "" for each in robot.iterfind("gazebo/static"))
     return robot.find(f"{OURS}mjcf") is None and any(each.strip() in {"true", "1"} for each in found)

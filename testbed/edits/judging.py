@@ -7,6 +7,7 @@ edited file's robot again. Where either file is MJCF, engines say so too, which 
 `engines.py`. What already differs before the edit is not the edit's doing.
 """
 
+import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
@@ -16,7 +17,7 @@ from lxml import etree
 
 from testbed.edits.edit import Edit, Rename
 from testbed.edits.edited_file import EditedFile, Language, without_scenery
-from testbed.edits.engines import NotReadError, differences_in_engines, is_refused_by_mujoco
+from testbed.edits.engines import NotReadError, differences_in_engines, is_refused_by_mujoco, is_static
 from testbed.edits.mistakes import KIND as MISTAKE
 from testbed.edits.plainly import Plainly, explained, plain_key
 from twinform.compiler import CompileError, Conversion, check, convert
@@ -26,6 +27,9 @@ from twinform.diagnostics.rules import OUTSIDE_MODEL, UNKNOWN_COLLISION
 
 Key = tuple[str | None, ...]
 """What differs: group, name and aspect of a `Difference`; plainly, see `plain_key`."""
+_KEPT = "/tf:mjcf/"
+_MAY_BE_SAID = re.compile(r"^sensor '|/mimic$")
+"""What an element that only MJCF has may become, once it says less."""
 
 
 class Outcome(StrEnum):
@@ -105,10 +109,12 @@ def judge(
     must_be_refused: bool = False,
     plainly: Plainly = Plainly.ALL,
     names: Mapping[str, str] = MappingProxyType({}),
+    kept: bool = False,
 ) -> Verdict:
     """What becomes of an edited file; no exception comes out of it.
 
-    `names` are those that parts had before the edit, by those that they have now.
+    `names` are those that parts had before the edit, by those that they have now; `kept` is whether an element that is
+    kept for MJCF was edited.
     """
     try:
         made = convert(edited, to=before.to)
@@ -133,6 +139,10 @@ def judge(
     except Exception as error:  # noqa: BLE001 - a result that cannot be read is no result
         return Verdict(fault, (f"not compared: {type(error).__name__}: {error}",), warned, made.text)
     compared, when_back = (_about_what_is_there(each, edited) for each in (compared, when_back))
+    if is_static(file.root):
+        compared, when_back = map(_without_holds, (compared, when_back))
+    if kept:
+        compared, when_back = map(_without_what_was_kept, (compared, when_back))
     found = [each.message for each in compared if _before(each, names) not in before.differing]
     news_plainly = [each for each in read if plain_key(each) not in before.differing_plainly]
     reasons = [explained(each, plainly, file) for each in news_plainly]
@@ -156,7 +166,8 @@ def judge_edits(before: Converted, edits: Iterable[Edit], edited: bytes) -> Verd
     must = any(each.kind == MISTAKE for each in every)
     renames = [each for edit in every for each in edit.operations if isinstance(each, Rename)]
     names = {each.new: each.old for each in renames}
-    return judge(before, edited, must_be_refused=must, plainly=_plainly(every), names=names)
+    kept = any(_KEPT in getattr(each, "at", "") for edit in every for each in edit.operations)
+    return judge(before, edited, must_be_refused=must, plainly=_plainly(every), names=names, kept=kept)
 
 
 def edits_carriers(edits: Iterable[Edit]) -> bool:
@@ -192,6 +203,22 @@ def _about_what_is_there(found: Iterable[Difference], edited: bytes) -> list[Dif
         return listed
     unknown = {each.found for each in check(edited).diagnostics if each.rule is UNKNOWN_COLLISION}
     return [each for each in listed if lost.get(id(each)) not in unknown]
+
+
+def _without_holds(found: Iterable[Difference]) -> list[Difference]:
+    """The differences without what holds the links of a robot that is static, and does not move whatever does."""
+    return [each for each in found if each.group != "link" or each.aspect != "joint" or each.a.text is not None]
+
+
+def _without_what_was_kept(found: Iterable[Difference]) -> list[Difference]:
+    """The differences without sensors and mimics in the result for elements of MJCF that were edited.
+
+    A camera without a mode is a sensor, and an equality without a polynomial a mimic, which moves what follows.
+    """
+    listed = list(found)
+    new = [each for each in listed if each.a.text is None and _MAY_BE_SAID.search(each.aspect or "")]
+    follows = any((each.aspect or "").endswith("mimic") for each in new)
+    return [each for each in listed if each not in new and not (follows and each.group == "kinematics")]
 
 
 def _is_lost_contact(found: Difference) -> bool:

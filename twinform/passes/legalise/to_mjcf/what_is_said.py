@@ -120,6 +120,9 @@ class WhatIsSaid:
         # A loop is held at points, which do not say how it turns there.
         if joint.name in self.file.closing:
             return None
+        # What is no joint of MJCF, as one that closes a loop, leads no other.
+        if isinstance(node, Mimic) and not self.file.context.written_joints.get(node.joint or ""):
+            return None
         if isinstance(node, Limit):
             said = said_of_limit(node, joint)
             return said - _without_end(node) if self.file.was_urdf else said
