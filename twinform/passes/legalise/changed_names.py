@@ -185,8 +185,9 @@ class RestoreNames(ModelPass):
             if self.unique and part == "joint" and now == node.name and self._key(part, old) in taken:
                 names[part, node.name] = f"{old.strip('_')}_joint"
                 continue
-            why = _SHARED if now == node.name and self._key(part, old) in taken else around.why_not(node.name, now, old)
-            if why == _SHARED and find_annotation(node, FRAME) is not None:  # a site of MJCF may be called as a body is
+            is_shared = now == node.name and self._key(part, old) in taken
+            why = _SHARED if is_shared else around.why_not(node.name, now, old)
+            if is_shared and find_annotation(node, FRAME) is not None:  # a site of MJCF may be called as a body is
                 sites.add(id(node))
             elif why:
                 message = f"{part} {node.name!r} was called {old!r}, and {why}"

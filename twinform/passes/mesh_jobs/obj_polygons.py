@@ -1,4 +1,4 @@
-"""Splits the polygons of OBJ files into triangles as MuJoCo does, by which the volume of a mesh is another one.
+"""Splits the polygons of OBJ files into triangles as MuJoCo does: other triangles would enclose another volume.
 
 MuJoCo reads OBJ with tinyobjloader, in single precision: a quadrangle is split at its shorter diagonal, and of any
 other polygon ears are cut off, seen along the axis that its first corner is turned about most. Where no ear is left,
@@ -12,7 +12,7 @@ from twinform.passes.mesh_jobs.libraries import np
 _Point = tuple[float, float, float]
 _Flat = tuple[float, float]
 _Corners = list[tuple[bytes, _Point]]
-"""The corners of a polygon: the words for them in the file, and where they are."""
+"""The corners of a polygon: the word for each in the file, and where it is."""
 _TINY = float(np.finfo(np.float32).eps)
 _TRIANGLE, _QUADRANGLE = 3, 4
 _MOST_CORNERS = 100
@@ -28,17 +28,17 @@ def split_polygons(content: bytes) -> bytes:
         kind = words[0] if words else b""
         corners: _Corners = []
         if kind == b"v":
-            points.append(_single(words[1:4]))
+            points.append(_in_single_precision(words[1:4]))
         elif kind == b"f" and len(words) > _TRIANGLE + 1:
-            corners = [(word, at) for word in words[1:] if (at := _point(word, points)) is not None]
+            corners = [(word, at) for word in words[1:] if (at := _point_of_corner(word, points)) is not None]
         if len(corners) > _TRIANGLE and len(corners) == len(words) - 1:
-            lines += [b"f " + b" ".join([word for word, _ in each]) for each in _triangles(corners)]
+            lines += [b"f " + b" ".join([word for word, _ in each]) for each in _split_polygon(corners)]
         else:
             lines.append(line)
     return b"\n".join(lines) + b"\n"
 
 
-def _single(words: Sequence[bytes]) -> _Point | None:
+def _in_single_precision(words: Sequence[bytes]) -> _Point | None:
     """A point in single precision, as MuJoCo computes with it."""
     try:
         x, y, z = (np.float32(word) for word in words)
@@ -47,18 +47,19 @@ def _single(words: Sequence[bytes]) -> _Point | None:
     return x, y, z
 
 
-def _point(word: bytes, points: Sequence[_Point | None]) -> _Point | None:
+def _point_of_corner(word: bytes, points: Sequence[_Point | None]) -> _Point | None:
     """The point of a corner, which counts from 1, or backwards from the last one."""
     try:
         number = int(word.split(b"/")[0])
-        return points[number if number < 0 else number - 1]
+        return points[number if number < 0 else number - 1] if number else None
     except (ValueError, IndexError):
         return None
 
 
-def _triangles(corners: _Corners) -> list[_Corners]:
+def _split_polygon(corners: _Corners) -> list[_Corners]:
+    """The triangles of a polygon of four corners or more."""
     if len(corners) > _QUADRANGLE:
-        return _ears(corners) if len(corners) <= _MOST_CORNERS else []
+        return _cut_ears(corners) if len(corners) <= _MOST_CORNERS else []
     a, b, c, d = corners
     if _distance(a[1], c[1]) < _distance(b[1], d[1]):
         return [[a, b, c], [a, c, d]]
@@ -70,9 +71,9 @@ def _distance(one: _Point, other: _Point) -> float:
     return x * x + y * y + z * z
 
 
-def _ears(corners: _Corners) -> list[_Corners]:
-    """Cut off triangles that hold no other corner, until three corners are left, or none has one."""
-    first, second = _plane([at for _, at in corners])
+def _cut_ears(corners: _Corners) -> list[_Corners]:
+    """The triangles that are cut off a polygon because they hold no other corner, and the three corners left."""
+    first, second = _longest_axes([at for _, at in corners])
     left = [((word, at), (at[first], at[second])) for word, at in corners]
     found: list[_Corners] = []
     start, tries, is_cut = 0, len(left), False
@@ -91,7 +92,7 @@ def _ears(corners: _Corners) -> list[_Corners]:
     return [*found, [corner for corner, _ in left]] if len(left) == _TRIANGLE else found
 
 
-def _plane(points: Sequence[_Point]) -> tuple[int, int]:
+def _longest_axes(points: Sequence[_Point]) -> tuple[int, int]:
     """The two axes in which a polygon is largest, by its first corner that is no straight line."""
     for index, here in enumerate(points):
         there, last = (points[(index + more) % len(points)] for more in (1, 2))

@@ -49,9 +49,8 @@ class TriangleSurface(NamedTuple):
 
 def parts_of(job: MeshJob, *, appearance: bool = False, finite: bool = True) -> list[tuple[str, Any]]:
     """The meshes that the shape of a job uses, by name, in meters and in their places."""
-    splits = job.options.get("as_mujoco") and job.kind == "obj"
-    content = split_polygons(job.content) if splits else job.content
-    scene: Any = scene_of(content, job.kind, companions=job.companions, appearance=appearance)
+    as_mujoco = bool(job.options.get("as_mujoco"))
+    scene: Any = scene_of(job.content, job.kind, companions=job.companions, appearance=appearance, as_mujoco=as_mujoco)
     if job.options.get("hull_of_points"):
         scene = _hull_of_points(scene)
     _require_triangles(scene, finite=finite)
@@ -213,8 +212,11 @@ def scene_of(
     *,
     companions: Mapping[str, bytes] | None = None,
     appearance: bool = False,
+    as_mujoco: bool = False,
 ) -> Scene:
     """Read a mesh file into a scene, with its materials if `appearance`; no other files are read than `companions`.
+
+    With `as_mujoco`, the polygons of an OBJ file become the triangles that MuJoCo makes of them.
 
     Raises:
         RefusedMeshError: it declares a document type, or would be far larger than its file.
@@ -229,6 +231,7 @@ def scene_of(
         _require_few_parts(content)
     if kind == "obj":
         _require_plain_obj(content)
+        content = split_polygons(content) if as_mujoco else content
     if kind in {"glb", "gltf"}:
         _require_few_nodes(content)
     if kind == KIND:

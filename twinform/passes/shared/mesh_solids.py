@@ -72,8 +72,8 @@ class Meshes:
     def triangles(self, mesh: Mesh, *, as_mujoco: bool = False, hull_of_points: bool = False) -> MeshTriangles:
         """The triangles of the mesh, in the frame of the shape.
 
-        `as_mujoco`, polygons are split as MuJoCo does it. With `hull_of_points`, those of the convex hull of a file
-        that has points alone.
+        With `as_mujoco`, polygons are split as MuJoCo splits them; with `hull_of_points`, a file that has points alone
+        is their convex hull.
 
         Raises:
             MeshError: the file is not there, or cannot be read.

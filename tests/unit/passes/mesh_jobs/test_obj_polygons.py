@@ -42,7 +42,7 @@ def test_a_polygon_with_too_many_corners_is_missing(corners: int, triangles: int
 
 
 @pytest.mark.parametrize(
-    "line", [b"f 1 2 3 9", b"f 1 2 3 0x", b"f 1 2 3 \\", b"v 1 2 x\nf 1 2 3 5", b"", b"o f 1 2 3 4"]
+    "line", [b"f 1 2 3 9", b"f 1 2 3 0", b"f 1 2 3 0x", b"f 1 2 3 \\", b"v 1 2 x\nf 1 2 3 5", b"", b"o f 1 2 3 4"]
 )
 def test_what_cannot_be_read_stays(line: bytes) -> None:
     assert split_polygons(_LONG + line + b"\n") == _LONG + line + b"\n"

@@ -38,9 +38,9 @@ def with_first_links(model: Model) -> Model:
 
 
 def keep_first_link(model: Model, *, can_be_named: bool) -> Model:
-    """A model that names its first link as the canonical one, where another would be written before that.
+    """The model with its first link named as the canonical one, where the file has another link on an earlier line.
 
-    The link of the world's own shapes would be. Old SDF cannot name one: there the others are written behind the first.
+    Old SDF cannot name one: there all other links are written behind the first.
     """
     if came_from(model, Format.URDF) or model.canonical_link or not model.links:
         return model

@@ -31,8 +31,8 @@ JOINTS = ("joint", "freejoint")
 class TreeParts(NamedTuple):
     """What the bodies of a model are in SDF.
 
-    `masks` are those of the collisions of each link. `links_of` has the
-    names of links by those of bodies, `sites` the link and the frame of each named site.
+    `masks` are those of the collisions of each link. `links_of` has the names of links by those of bodies, `sites` the
+    link and the frame of each named site.
     """
 
     links: list[Link]

@@ -203,9 +203,9 @@ class _Merged:
         return self._let_go(self.merging.merge(model, partial), made, is_static=is_static)
 
     def _of_static_models(self, frames: Iterable[Frame], *, is_static: bool) -> list[Joint]:
-        """The joints of static models, or of all: there they cannot move, and are fixed in the file.
+        """The kept joints of static models, which the file has as fixed ones; all of them, if the whole is static.
 
-        `frames` stand for models in the model.
+        `frames` stand for the models in the model.
         """
         if is_static:
             return self.joints
@@ -242,8 +242,9 @@ class _Merged:
     def _let_go(self, model: Model, made: frozenset[str], *, is_static: bool = False) -> Model:
         """The model without joints that only say that it is fixed to the world, where something else says so."""
         carried = {each.name for each in self.joints if not is_synthesized(each)}
+        roots = _roots(model)
         # The only root of a URDF goes without saying; of several each is held or floats.
-        is_robot = came_from(model, Format.URDF) and len(_roots(model)) <= 1
+        is_robot = came_from(model, Format.URDF) and len(roots) <= 1
 
         def is_needless(joint: Joint) -> bool:
             if joint.type != "fixed" or joint.parent != WORLD:
@@ -252,10 +253,9 @@ class _Merged:
 
         self.holds = tuple(each for each in model.joints if is_robot and is_needless(each))
         # A root was held by a joint of the file, or by one that was made; what came by way of SDF floats there too.
-        roots = _roots(model)
         holds = (each for each in self.joints if each.type == "fixed" and (is_synthesized(each) or each.child in roots))
         if is_robot and any(holds) and not any(each.parent == WORLD for each in model.joints):
-            return _let_float(model)
+            return _let_float(model, roots)
         return model.copy(joints=tuple(each for each in model.joints if not is_needless(each)))
 
     def _restored(self, model: Model) -> Model:
@@ -373,9 +373,8 @@ class _Merged:
         report_stale(self.sink, message, node.source)
 
 
-def _let_float(model: Model) -> Model:
-    """The model whose only root hangs from a floating joint: a root of URDF is held, and somebody has set it free."""
-    roots = _roots(model)
+def _let_float(model: Model, roots: Collection[str]) -> Model:
+    """The model with a floating joint for its root: a root of URDF is held, and somebody has set this one free."""
     names = {each.name for part in (model.links, model.joints, model.frames) for each in part}
     links = (floating_from_world(each, names) if each.name in roots else each for each in model.links)
     return model.copy(links=tuple(links))

@@ -190,7 +190,7 @@ def _with_own_names(node: Link, partial: Link) -> Link:
 
 
 def _with_floating(node: Link, partial: Link) -> tuple[Link, Link]:
-    """The floating joint of a URDF, which is called as the free joint in the file."""
+    """Both links, where the floating joint that is kept of a URDF takes the name of the free joint in the file."""
     floating = find_annotation(partial, FLOATING)
     free = next((each for each in kept_elements(node) if each.name == "freejoint" and each.get("name")), None)
     if floating is None or free is None:
@@ -202,7 +202,7 @@ def _with_floating(node: Link, partial: Link) -> tuple[Link, Link]:
 
 
 def floating_from_world(link: Link, names: Collection[str]) -> Link:
-    """A free link with an annotation of a floating joint, which URDF needs: it is called as the joint in the file."""
+    """A free link, annotated with the joint that it needs in URDF, which has the name of the joint in the file."""
     made = annotation(
         FLOATING, attributes={"joint": unique_name(f"{link.name}_floating_joint", names), "parent": WORLD}
     )
@@ -211,7 +211,7 @@ def floating_from_world(link: Link, names: Collection[str]) -> Link:
 
 
 def _without_name(parts: tuple[Opaque, ...], free: Element) -> tuple[Opaque, ...]:
-    """What a link keeps, without the name of its free joint, or without that where it has no more."""
+    """The untyped parts of a link without the name of its free joint; a joint of which no more is kept goes too."""
     left = _without(free, {"name"})
     found: list[Opaque] = []
     for part in parts:

@@ -42,7 +42,7 @@ def without_named(node: AnyNode, names: Collection[tuple[str, str]]) -> AnyNode:
         if part.element is None or not _is_kept(part):
             return part
         sections = tuple(
-            section.copy(children=_without(section.children, names))
+            section.copy(children=_without_unused(section.children, names))
             if section.name in {"asset", "equality"}
             else section
             for section in part.element.children
@@ -52,7 +52,7 @@ def without_named(node: AnyNode, names: Collection[tuple[str, str]]) -> AnyNode:
     return replace_fields(node, opaque=tuple(made for part in node.opaque if (made := left(part)) is not None))
 
 
-def _without(elements: Sequence[Element], names: Collection[tuple[str, str]]) -> tuple[Element, ...]:
+def _without_unused(elements: Sequence[Element], names: Collection[tuple[str, str]]) -> tuple[Element, ...]:
     """The elements without those of these names; a texture that another material has is kept with that."""
     left = {id(each) for each in elements if _name_of(each) not in names}
     needed = {name for each in elements if id(each) in left for inner in each.walk() for name in names_of_assets(inner)}

@@ -237,7 +237,7 @@ def _solid(context: MjcfContext, body: Body, shape: Shape, part: Visual | Collis
     """The shape in MJCF; why it has none; or None where that was reported."""
     match shape:
         case Mesh():
-            return _mesh(context, shape, part)
+            return _mesh_solid(context, shape, part)
         case Plane():
             if body.moves:
                 return "is a plane on a link that moves, and MuJoCo takes planes on fixed bodies alone"
@@ -260,7 +260,7 @@ def _solid(context: MjcfContext, body: Body, shape: Shape, part: Visual | Collis
             return f"has the shape {shape.kind}, which MJCF does not have"
 
 
-def _mesh(context: MjcfContext, shape: Mesh, part: Visual | Collision) -> Solid | None:
+def _mesh_solid(context: MjcfContext, shape: Mesh, part: Visual | Collision) -> Solid | None:
     """A mesh, whose asset may keep the reference pose that it had in MJCF."""
     wanted, scale = kept_of_geom(part, "mesh"), shape.scale or (1.0, 1.0, 1.0)
     kept = context.kept_asset("mesh", wanted) if wanted else None

@@ -27,15 +27,27 @@ def add_mimics(context: MjcfContext) -> None:
 
 
 def _add_mimic(context: MjcfContext, name: str, joint: Joint, number: int, mimic: Mimic) -> None:
-    follower = _written(context, name, number)
-    leader = _written(context, context.scope_of(name) + (mimic.joint or ""), 1 if mimic.axis == "axis2" else 0)
-    if follower is None or leader is None or follower == leader:
+    ends = coupled_joints(context, name, number, context.scope_of(name) + (mimic.joint or ""), mimic.axis)
+    if ends is None:
         message = f"joint {joint.name!r} cannot follow {mimic.joint!r} in MJCF"
-        context.approximate(rules.UNKNOWN_LEADER, message, mimic.location)
+        context.approximate(rules.UNKNOWN_LEADER, message, mimic.location, 0)  # its text holds all of it
         return
+    follower, leader = ends
     factor = multiplier(mimic)
     offset = (mimic.offset or 0.0) - factor * (mimic.reference or 0.0)
     context.add("equality", with_kept_equality(_relation(follower, leader, offset, factor), joint))
+
+
+def coupled_joints(
+    context: MjcfContext, name: str, number: int, leader: str, axis: str | None
+) -> tuple[str, str] | None:
+    """The joint of MJCF for an axis of a joint that mimics another, and that for the axis which it follows.
+
+    None where either has no position that an equality could hold, as a joint that closes a loop. Names are scoped.
+    """
+    follower = _written(context, name, number)
+    led_by = _written(context, leader, 1 if axis == "axis2" else 0)
+    return None if follower is None or led_by is None or follower == led_by else (follower, led_by)
 
 
 def _relation(follower: str, leader: str, offset: float, factor: float) -> Element:

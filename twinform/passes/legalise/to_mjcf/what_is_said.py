@@ -27,6 +27,7 @@ from twinform.passes.carriers.joint_chains import TWO_AXES
 from twinform.passes.carriers.partial_nodes import EXISTENCE, Left
 from twinform.passes.carriers.said_by_mjcf import said_by_mjcf, said_of_limit
 from twinform.passes.legalise.to_mjcf.friction import USUAL_SLIDING
+from twinform.passes.legalise.to_mjcf.mimics import coupled_joints
 from twinform.passes.legalise.to_mjcf.written_file import WrittenFile
 from twinform.passes.sdf_versions import sdf_version_read
 from twinform.schemas import Version, parse_version
@@ -120,8 +121,7 @@ class WhatIsSaid:
         # A loop is held at points, which do not say how it turns there.
         if joint.name in self.file.closing:
             return None
-        # What is no joint of MJCF, as one that closes a loop, leads no other.
-        if isinstance(node, Mimic) and not self.file.context.written_joints.get(node.joint or ""):
+        if isinstance(node, Mimic) and not self._is_equality(node, joint):
             return None
         if isinstance(node, Limit):
             said = said_of_limit(node, joint)
@@ -129,6 +129,10 @@ class WhatIsSaid:
         if isinstance(node, Axis) and joint.type not in _DIRECTED:
             return None if joint.type == "fixed" else frozenset()
         return said_by_mjcf(node)
+
+    def _is_equality(self, mimic: Mimic, joint: Joint) -> bool:
+        number = int(joint.axis is None or joint.axis.mimic != mimic)
+        return coupled_joints(self.file.context, joint.name, number, mimic.joint or "", mimic.axis) is not None
 
     def _of_joint(self, joint: Joint) -> Fields:
         if joint.name in self.file.closing:
